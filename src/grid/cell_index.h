@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <compare>
+#include <cstdint>
+
+namespace dynslam {
+
+/// A cell of a grid: covers [x, x + 1) by [y, y + 1) cells from the frame's origin, y up.
+struct CellIndex {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  auto operator<=>(const CellIndex&) const = default;
+};
+
+/// What a map says of a cell.
+enum class CellState : std::uint8_t { kUnknown, kFree, kOccupied };
+
+/// The cell that holds a point. The point must lie within 2^31 cells of the origin.
+inline CellIndex cell_at(const Eigen::Vector2d& point_m, double cell_size_m) {
+  return {static_cast<std::int32_t>(std::floor(point_m.x() / cell_size_m)),
+          static_cast<std::int32_t>(std::floor(point_m.y() / cell_size_m))};
+}
+
+/// The middle of a cell, in metres.
+inline Eigen::Vector2d cell_centre(CellIndex c, double cell_size_m) {
+  return {(c.x + 0.5) * cell_size_m, (c.y + 0.5) * cell_size_m};
+}
+
+}  // namespace dynslam
