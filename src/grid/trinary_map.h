@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "grid/cell_index.h"
+#include "grid/chunked_grid.h"
 
 namespace dynslam {
 
@@ -21,5 +22,8 @@ struct TrinaryMap {
     return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)];
   }
 };
+
+/// The smallest rectangle of a map that holds all its known cells; 0 x 0 when there are none.
+TrinaryMap trinary_map(const GridSnapshot& map);
 
 }  // namespace dynslam

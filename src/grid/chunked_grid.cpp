@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "grid/chunked_grid.h"
+
+#include <array>
+#include <bit>
+#include <cstring>
+
+namespace dynslam {
+namespace {
+
+using Row = std::uint8_t[kChunkSide];
+
+/// For each byte of bits, eight bytes that are 0xFF where the bit is set.
+constexpr std::array<std::uint64_t, 256> make_spread() {
+  std::array<std::uint64_t, 256> spread{};
+  for (unsigned bits = 0; bits < 256; ++bits) {
+    for (unsigned b = 0; b < 8; ++b) {
+      if ((bits >> b) & 1U) spread[bits] |= std::uint64_t{0xFF} << (8 * (std::endian::native == std::endian::little ? b : 7 - b));
+    }
+  }
+  return spread;
+}
+constexpr auto kSpread = make_spread();
+
+void miss_whole_row(Row& hit, Row& miss) {
+  for (int i = 0; i < kChunkSide; ++i) {
+    hit[i] = lowered(hit[i], kLoss);
+    miss[i] = raised(miss[i], kGain);
+  }
+}
+
+void miss_row(Row& hit, Row& miss, std::uint64_t cells) {
+  alignas(64) Row chosen;
+  for (int i = 0; i < 8; ++i) std::memcpy(chosen + 8 * i, &kSpread[(cells >> (8 * i)) & 0xFF], 8);
+  for (int i = 0; i < kChunkSide; ++i) {
+    hit[i] = lowered(hit[i], static_cast<std::uint8_t>(chosen[i] & kLoss));
+    miss[i] = raised(miss[i], static_cast<std::uint8_t>(chosen[i] & kGain));
+  }
+}
+
+/// Whether another miss leaves the whole row as it is: an empty room that was looked at often costs no copy.
+bool is_sure_of_misses(const Row& hit, const Row& miss) {
+  std::uint8_t most_hit = 0;
+  std::uint8_t least_miss = 255;
+  for (int i = 0; i < kChunkSide; ++i) {
+    most_hit = std::max(most_hit, hit[i]);
+    least_miss = std::min(least_miss, miss[i]);
+  }
+  return most_hit == 0 && least_miss == 255;
+}
+
+}  // namespace
+
+CellState GridSnapshot::state(CellIndex c) const {
+  const Chunk* chunk = find(chunk_of(c));
+  if (!chunk) return CellState::kUnknown;
+  return cell_state(chunk->hit[c.y & kChunkMask][c.x & kChunkMask], chunk->miss[c.y & kChunkMask][c.x & kChunkMask]);
+}
+
+std::uint8_t ChunkedGrid::hit(CellIndex c) const {
+  const Chunk* chunk = table_.find(chunk_of(c));
+  return chunk ? chunk->hit[c.y & kChunkMask][c.x & kChunkMask] : std::uint8_t{0};
+}
+
+std::uint8_t ChunkedGrid::miss(CellIndex c) const {
+  const Chunk* chunk = table_.find(chunk_of(c));
+  return chunk ? chunk->miss[c.y & kChunkMask][c.x & kChunkMask] : std::uint8_t{0};
+}
+
+/// The chunk to write to: allotted if it is new, cloned if a snapshot may hold it; null when the cap is reached.
+Chunk* ChunkedGrid::writable(ChunkIndex index) {
+  std::shared_ptr<Chunk>* entry = table_.find_entry(index);
+  if (!entry) {
+    if (table_.size() >= max_chunks_) return nullptr;
+    entry = &table_.insert(index, std::make_shared<Chunk>());
+    box_.include(index);
+    (*entry)->version = 1;
+    (*entry)->epoch = epoch_;
+  } else if ((*entry)->epoch != epoch_) {
+    *entry = std::make_shared<Chunk>(**entry);
+    ++(*entry)->version;
+    (*entry)->epoch = epoch_;
+  }
+  return entry->get();
+}
+
+void ChunkedGrid::add_hit(CellIndex c) {
+  Chunk* chunk = writable(chunk_of(c));
+  if (!chunk) {
+    ++cells_refused_;
+    return;
+  }
+  std::uint8_t& hit = chunk->hit[c.y & kChunkMask][c.x & kChunkMask];
+  std::uint8_t& miss = chunk->miss[c.y & kChunkMask][c.x & kChunkMask];
+  hit = raised(hit, kGain);
+  miss = lowered(miss, kLoss);
+}
+
+void ChunkedGrid::add_miss(CellIndex c) {
+  Chunk* chunk = writable(chunk_of(c));
+  if (!chunk) {
+    ++cells_refused_;
+    return;
+  }
+  std::uint8_t& hit = chunk->hit[c.y & kChunkMask][c.x & kChunkMask];
+  std::uint8_t& miss = chunk->miss[c.y & kChunkMask][c.x & kChunkMask];
+  hit = lowered(hit, kLoss);
+  miss = raised(miss, kGain);
+}
+
+void ChunkedGrid::apply(const ScanFootprint& footprint) {
+  const ChunkBox& box = footprint.misses.box();
+  for (std::int32_t y = box.min.y; y <= box.max.y; ++y) {
+    for (std::int32_t x = box.min.x; x <= box.max.x; ++x) apply_misses(footprint.misses, {x, y});
+  }
+  for (const CellIndex c : footprint.hits) add_hit(c);
+}
+
+void ChunkedGrid::apply_misses(const CellBitmap& misses, ChunkIndex index) {
+  const int column = index.x - misses.box().min.x;
+  const int first_row = (index.y - misses.box().min.y) * kChunkSide;
+  const Chunk* old = table_.find(index);
+  Chunk* chunk = nullptr;
+  for (int r = 0; r < kChunkSide; ++r) {
+    const std::uint64_t cells = misses.row(first_row + r)[column];
+    if (cells == 0 || (!chunk && old && is_sure_of_misses(old->hit[r], old->miss[r]))) continue;
+    if (!chunk) chunk = writable(index);
+    if (!chunk) {
+      cells_refused_ += static_cast<std::uint64_t>(std::popcount(cells));
+    } else if (~cells == 0) {
+      miss_whole_row(chunk->hit[r], chunk->miss[r]);
+    } else {
+      miss_row(chunk->hit[r], chunk->miss[r], cells);
+    }
+  }
+}
+
+GridSnapshot ChunkedGrid::snapshot() {
+  ++epoch_;
+  return {table_, box_, cell_size_m_};
+}
+
+}  // namespace dynslam

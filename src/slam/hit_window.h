@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/pose2.h"
+#include "grid/chunked_grid.h"
+
+namespace dynslam {
+
+/// A point to match, in the robot's frame, cells.
+struct MatchPoint {
+  float x = 0.0F;
+  float y = 0.0F;
+  float weight = 1.0F;  ///< near surfaces get many beams a cell; together they count as one or two
+};
+
+/// A copy of the hit plane around the points of a scan in one piece of memory, chunk seams gone, so that a row of it
+/// can be loaded 16 cells at a time. Only chunks that the points can reach are copied; the rest holds what it holds.
+/// Positions are in cells from the window's lower left cell. Keeps its memory from one call to the next.
+class HitWindow {
+ public:
+  /// Cells right of a position that a 16-lane load may read.
+  static constexpr int kLanes = 16;
+
+  /// Copies what `points`, at grid_T_robot (x, y in cells), can reach when moved by up to `reach` cells either way and
+  /// turned by up to `turn_rad`.
+  void load(const ChunkedGrid& grid, std::span<const MatchPoint> points, const Pose2& grid_T_robot, float reach,
+            float turn_rad);
+  /// The maximum of each block of `factor` by `factor` cells of `fine`, where `fine` holds something.
+  void pool(const HitWindow& fine, int factor);
+
+  /// The cell of the grid that is the window's cell (0, 0).
+  CellIndex first() const { return first_; }
+  int stride() const { return stride_; }
+  int height() const { return height_; }
+  const std::uint8_t* data() const { return data_.get(); }
+  bool contains(int x, int y) const { return x >= 0 && y >= 0 && x + kLanes <= stride_ && y < height_; }
+
+ private:
+  void shape(int chunks_wide, int chunks_high, int side);
+
+  CellIndex first_;
+  int stride_ = 0;
+  int height_ = 0;
+  int chunks_wide_ = 0;
+  std::vector<std::uint8_t> wanted_;  ///< a flag for each chunk of the window
+  std::unique_ptr<std::uint8_t[]> data_;
+  std::size_t capacity_ = 0;
+};
+
+}  // namespace dynslam

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "base/angles.h"
+#include "base/imu_sample.h"
+
+namespace dynslam {
+
+/// The last seconds of the IMU's heading: spikes smoothed (thesis 4.1.1), made continuous over full turns (thesis,
+/// listing 4.1), interpolated at any time in between. One thread.
+class ImuTrack {
+ public:
+  /// Samples that do not advance in time are dropped and counted.
+  void add(const ImuSample& sample);
+
+  bool empty() const { return samples_.empty(); }
+  /// REQUIRES: !empty().
+  Time newest() const { return samples_.back().stamp; }
+
+  /// Heading at a time, continuous from call to call, in the IMU's own frame. Past the newest sample it is carried on
+  /// with the last rate, for up to kCarryOn; nothing is said farther out, across a gap longer than kLongestGap, or
+  /// before the oldest sample kept.
+  std::optional<double> heading_at(Time t) const;
+
+  std::uint64_t spikes_smoothed() const { return spikes_; }
+  std::uint64_t out_of_order() const { return out_of_order_; }
+
+  static constexpr Duration kKept = std::chrono::seconds(4);
+  static constexpr Duration kCarryOn = std::chrono::milliseconds(60);
+  static constexpr Duration kLongestGap = std::chrono::milliseconds(150);
+  /// A single sample that lies this far off both its neighbours' course is a spike: no indoor robot turns so fast.
+  static constexpr double kSpikeRate_radps = 6.0;
+
+ private:
+  struct Heading {
+    Time stamp;
+    double yaw_rad;  ///< continuous
+  };
+  void smooth_last_but_one();
+
+  std::deque<Heading> samples_;
+  std::uint64_t spikes_ = 0;
+  std::uint64_t out_of_order_ = 0;
+};
+
+}  // namespace dynslam

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/pose2.h"
+#include "base/time.h"
+#include "grid/chunked_grid.h"
+
+namespace dynslam {
+
+/// A piece of the building as seen over a few dozen scans, short enough to have no drift worth speaking of.
+/// Its cells are drawn in the frame that poses were given in when it was begun; `map_T_origin` is the robot's pose then
+/// and there.
+struct LocalMap {
+  LocalMap(double cell_size_m, std::size_t max_chunks, const Pose2& origin, Time begin)
+      : grid(cell_size_m, max_chunks), map_T_origin(origin), begun(begin) {}
+
+  ChunkedGrid grid;
+  Pose2 map_T_origin;
+  Time begun;
+  int scans = 0;          ///< that count: taken in motion
+  double travel_m = 0.0;  ///< since it was begun
+};
+
+}  // namespace dynslam

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "slam/motion_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dynslam {
+namespace {
+
+// How wrong each source may be, from what indoor robots of this size do. Speeds change by accelerating: what the last
+// velocity says is off by half of it times time squared.
+constexpr double kAcceleration_mps2 = 1.0;
+constexpr double kTurnAcceleration_radps2 = 6.0;
+constexpr double kLongestCarryOn_s = 1.0;
+
+/// Faster than any indoor robot: such a step of the wheels' count is a fault of the count.
+constexpr double kFastest_mps = 5.0;
+
+}  // namespace
+
+std::optional<double> MotionModel::imu_turn(Time from, Time to) const {
+  const auto a = imu_.heading_at(from), b = imu_.heading_at(to);
+  if (!a || !b) return std::nullopt;
+  return *b - *a;
+}
+
+std::optional<Pose2> MotionModel::wheel_motion(Time from, Time to) const {
+  const auto a = odometry_.pose_at(from), b = odometry_.pose_at(to);
+  if (!a || !b) return std::nullopt;
+  const Pose2 step = a->inverse() * *b;
+  if (step.translation().norm() > 0.5 + kFastest_mps * to_seconds(to - from)) return std::nullopt;
+  return step;
+}
+
+/// Along an arc at the last velocity, no longer than it can be trusted.
+Pose2 MotionModel::carried_on(double seconds) const {
+  const double t = std::clamp(seconds, -kLongestCarryOn_s, kLongestCarryOn_s);
+  const double turned = velocity_.yaw_radps * t;
+  const Pose2 half_turn{0, 0, 0.5 * turned};
+  const Vector2 moved = half_turn * Vector2(velocity_.x_mps * t, velocity_.y_mps * t);
+  return {moved.x(), moved.y(), turned};
+}
+
+MatchPrior MotionModel::expect(Time t) const {
+  const double dt = to_seconds(t - time_);
+  Pose2 step = carried_on(dt);
+  const double unsure_s = std::min(dt, 2.0);
+  MatchPrior prior;
+  prior.sigma_xy_m = 0.02 + 0.5 * kAcceleration_mps2 * unsure_s * unsure_s;
+  prior.sigma_yaw_rad = 0.005 + std::min(0.5, 0.5 * kTurnAcceleration_radps2 * unsure_s * unsure_s);
+  if (const auto wheels = wheel_motion(time_, t)) {
+    step = *wheels;
+    const double travel = step.translation().norm(), turned = std::abs(step.yaw);
+    prior.sigma_xy_m = 0.015 + 0.1 * travel + 0.03 * turned;
+    prior.sigma_yaw_rad = 0.006 + 0.06 * turned + 0.05 * travel;
+  }
+  if (const auto turned = imu_turn(time_, t)) {
+    step.yaw = *turned;
+    prior.sigma_yaw_rad = 0.004 + 0.004 * std::abs(*turned);
+  }
+  prior.map_T_robot = pose_ * step;
+  return prior;
+}
+
+MatchPrior MotionModel::expect_without_wheels(Time t) const {
+  const double dt = to_seconds(t - time_);
+  MatchPrior prior;
+  Pose2 step = carried_on(dt);
+  if (const auto turned = imu_turn(time_, t)) step.yaw = *turned;
+  prior.map_T_robot = pose_ * step;
+  prior.sigma_xy_m = 0.2;
+  prior.sigma_yaw_rad = 0.25;
+  return prior;
+}
+
+MotionInScan MotionModel::motion_around(Time reference) const {
+  return [this, reference](Time t) {
+    const double dt = to_seconds(t - reference);
+    Pose2 moved = carried_on(dt);
+    if (const auto turned = imu_turn(reference, t)) moved.yaw = *turned;
+    return moved;
+  };
+}
+
+double MotionModel::yaw_rate(Time t) const {
+  const Duration half = std::chrono::milliseconds(40);
+  if (const auto turned = imu_turn(t - half, t + half)) return *turned / to_seconds(2 * half);
+  return velocity_.yaw_radps;
+}
+
+void MotionModel::fix(Time t, const Pose2& map_T_robot) {
+  const double dt = to_seconds(t - time_);
+  if (has_fix_ && dt > 0) {
+    const Pose2 step = pose_.inverse() * map_T_robot;
+    const Vector2 along = Pose2{0, 0, -0.5 * step.yaw} * step.translation();
+    const double share = dt > 0.5 ? 1.0 : 0.7;  // of what one step shows, which is noisy when steps are short
+    velocity_.x_mps += share * (along.x() / dt - velocity_.x_mps);
+    velocity_.y_mps += share * (along.y() / dt - velocity_.y_mps);
+    velocity_.yaw_radps = step.yaw / dt;
+  }
+  has_fix_ = true;
+  time_ = t;
+  pose_ = map_T_robot;
+}
+
+}  // namespace dynslam

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "base/imu_sample.h"
+#include "base/odometry.h"
+#include "slam/imu_track.h"
+#include "slam/odometry_track.h"
+#include "slam/passes.h"
+#include "slam/scan_matcher.h"
+
+namespace dynslam {
+
+/// What is known of the robot's motion without looking at the map: IMU heading, wheel odometry, and the velocity that
+/// the last matches showed. Each has its say where it exists: yaw from the IMU, else the wheels, else the velocity;
+/// translation from the wheels, else the velocity. One thread.
+class MotionModel {
+ public:
+  void add(const ImuSample& sample) { imu_.add(sample); }
+  void add(const OdometrySample& sample) { odometry_.add(sample); }
+
+  const ImuTrack& imu() const { return imu_; }
+  const OdometryTrack& odometry() const { return odometry_; }
+
+  /// Where the robot should be at `t`, and how far off that may be. The pose of the last fix before there is motion.
+  MatchPrior expect(Time t) const;
+  /// The same without the wheels: what is left when they contradict the scan. Looks about widely.
+  MatchPrior expect_without_wheels(Time t) const;
+  /// The motion around a scan's reference time, for the egomotion pass.
+  MotionInScan motion_around(Time reference) const;
+
+  /// The scan of time `t` was taken here: the velocity follows.
+  void fix(Time t, const Pose2& map_T_robot);
+  bool has_fix() const { return has_fix_; }
+  const Pose2& last_pose() const { return pose_; }
+  Time last_time() const { return time_; }
+  /// Turning rate at a time, rad/s: the IMU's, else that of the last fixes.
+  double yaw_rate(Time t) const;
+
+ private:
+  struct Velocity {  ///< in the robot's frame
+    double x_mps = 0, y_mps = 0, yaw_radps = 0;
+  };
+  std::optional<double> imu_turn(Time from, Time to) const;
+  std::optional<Pose2> wheel_motion(Time from, Time to) const;
+  Pose2 carried_on(double seconds) const;
+
+  ImuTrack imu_;
+  OdometryTrack odometry_;
+  bool has_fix_ = false;
+  Time time_;
+  Pose2 pose_;
+  Velocity velocity_;
+};
+
+}  // namespace dynslam

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "base/pose2.h"
+#include "base/scan.h"
+#include "base/time.h"
+#include "grid/free_space.h"
+#include "slam/slam_config.h"
+
+/// The steps between the lidar's raw beams and rays that can be drawn (thesis 4.1.1). Each is a function of its input.
+namespace dynslam {
+
+/// A ray as measured from the lidar at its own time, after clamping.
+struct Ray {
+  float angle_rad = 0.0F;  ///< lidar frame, already turned over for a lidar mounted upside down
+  float range_m = 0.0F;
+  float time_s = 0.0F;  ///< after the scan's stamp
+  bool hit = false;     ///< false: cut at the trusted range
+};
+
+/// A scan put right: all rays as the robot would have seen them from where it was at one moment.
+struct CorrectedScan {
+  Time reference;  ///< that moment: the middle of the scan
+  Pose2 robot_T_lidar;
+  std::vector<RayEnd> ends_lidar;  ///< lidar frame at the reference time, in order of bearing
+  double beam_step_rad = 0.0;      ///< mean angle between beams; 0 when there are fewer than two
+};
+
+/// Where the robot was at a time, as seen from where it was at the reference time: reference_T_robot(t).
+using MotionInScan = std::function<Pose2(Time)>;
+
+/// Keeps what is believed: no rays shorter than `min_range_m`, none without a valid measurement. Rays over
+/// `trusted_range_m` are cut to it and lose their end point. A ray from which nothing came back says nothing:
+/// a black cupboard does the same.
+std::vector<Ray> clamp_pass(const Scan& scan, const SlamConfig& config);
+
+/// The time a scan's corrected rays refer to: halfway between its first and last beam.
+Time reference_time(const Scan& scan);
+
+/// Mean angle between neighbouring beams, radians.
+double beam_step(const Scan& scan);
+
+/// Egomotion correction: each ray from the pose the lidar had at the ray's own time (thesis, equations 4.1 and 4.2,
+/// with the linear motion the thesis left out).
+CorrectedScan egomotion_pass(const Scan& scan, const std::vector<Ray>& rays, const MotionInScan& motion);
+
+}  // namespace dynslam

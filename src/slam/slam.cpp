@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "slam/slam.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dynslam {
+namespace {
+
+/// How long a scan waits for an IMU that has stopped talking, counted in the time of other samples.
+constexpr Duration kImuPatience = std::chrono::milliseconds(150);
+constexpr std::size_t kMostPoints = 2000;
+/// Less than this since the last scan that counted: the robot stands.
+constexpr double kStanding_m = 0.02;
+constexpr double kStanding_rad = 0.01;
+/// After so many scans that the map does not explain, a new map begins where motion sensors say the robot is.
+constexpr int kMostUnmatched = 20;
+
+/// What a scan has to offer for matching: its hits, in the robot's frame and in cells.
+void choose_points(const CorrectedScan& scan, double cell_size_m, std::vector<MatchPoint>& points) {
+  const double c = std::cos(scan.robot_T_lidar.yaw) / cell_size_m, s = std::sin(scan.robot_T_lidar.yaw) / cell_size_m;
+  const Vector2 at = scan.robot_T_lidar.translation() / cell_size_m;
+  const std::size_t stride = 1 + scan.ends_lidar.size() / kMostPoints;
+  const double arc_cells = static_cast<double>(stride) * scan.beam_step_rad / cell_size_m;
+  points.clear();
+  for (std::size_t i = 0; i < scan.ends_lidar.size(); i += stride) {
+    const RayEnd& e = scan.ends_lidar[i];
+    if (!e.hit) continue;
+    points.push_back({static_cast<float>(at.x() + c * e.x_m - s * e.y_m), static_cast<float>(at.y() + s * e.x_m + c * e.y_m),
+                      static_cast<float>(std::min(1.0, arc_cells * e.range_m))});
+  }
+}
+
+}  // namespace
+
+Slam::Slam(const SlamConfig& config, StageWatch* watch)
+    : config_(config),
+      watch_(watch),
+      matcher_({.search_half_width_m = config.search_half_width_m}),
+      global_map_(config.cell_size_m, static_cast<std::size_t>(config.max_chunks)) {}
+
+void Slam::add(const ImuSample& sample) {
+  newest_sample_ = std::max(newest_sample_, sample.stamp);
+  motion_.add(sample);
+}
+
+void Slam::add(const OdometrySample& sample) {
+  newest_sample_ = std::max(newest_sample_, sample.stamp);
+  motion_.add(sample);
+}
+
+void Slam::add(Scan scan) {
+  newest_sample_ = std::max(newest_sample_, scan.stamp);
+  waiting_.push_back(std::move(scan));
+}
+
+bool Slam::is_ready(const Scan& scan) const {
+  const Time end = scan.stamp + from_seconds(scan.beams.empty() ? 0.0 : scan.beams.back().time_s);
+  const bool covered = motion_.imu().empty() || motion_.imu().newest() >= end;
+  return covered || newest_sample_ > end + kImuPatience;
+}
+
+std::optional<ScanResult> Slam::next(bool at_end) {
+  while (!waiting_.empty() && (at_end || is_ready(waiting_.front()))) {
+    const Scan scan = std::move(waiting_.front());
+    waiting_.pop_front();
+    if (auto result = process(scan)) return result;
+  }
+  return std::nullopt;
+}
+
+std::optional<ScanResult> Slam::process(const Scan& scan) {
+  if (last_stamp_ && scan.stamp <= *last_stamp_) {
+    counters_.add("slam.scans_out_of_order");
+    return std::nullopt;
+  }
+  last_stamp_ = scan.stamp;
+  enter("passes");
+  const CorrectedScan corrected = correct(scan);
+  choose_points(corrected, config_.cell_size_m, points_);
+
+  enter("match");
+  ScanResult result;
+  result.stamp = scan.stamp;
+  const bool first = local_maps_.empty();
+  MatchResult match;
+  if (first) {
+    match.score = 1.0;
+  } else {
+    match = locate(corrected);
+  }
+  result.matched = first ? !points_.empty() : is_believable(match);
+  result.score = match.score;
+  result.covariance = match.covariance;
+  const Pose2 pose = result.matched || first ? match.map_T_robot : motion_.expect(corrected.reference).map_T_robot;
+  result.map_T_robot = pose_at_stamp(scan, corrected, pose);
+  const bool too_fast = std::abs(motion_.yaw_rate(corrected.reference)) > config_.skip_yaw_rate_radps;
+  motion_.fix(corrected.reference, pose);
+
+  enter("insert");
+  unmatched_in_a_row_ = result.matched ? 0 : unmatched_in_a_row_ + 1;
+  if (!result.matched) counters_.add("slam.scans_unmatched");
+  if (too_fast) counters_.add("slam.scans_skipped_turning");
+  if (unmatched_in_a_row_ > kMostUnmatched) {
+    counters_.add("slam.times_lost");
+    local_maps_.clear();
+    unmatched_in_a_row_ = 0;
+    result.matched = true;
+  }
+  result.inserted = result.matched && !too_fast;
+  if (result.inserted) {
+    count_scan(pose, corrected.reference);
+    insert(corrected, pose);
+  }
+  enter("");
+  return result;
+}
+
+CorrectedScan Slam::correct(const Scan& scan) {
+  const std::vector<Ray> rays = clamp_pass(scan, config_);
+  return egomotion_pass(scan, rays, motion_.motion_around(reference_time(scan)));
+}
+
+/// Where the scan was taken, by the map. A prior that the scan contradicts is set aside for a wider look around where
+/// the robot was last heading.
+MatchResult Slam::locate(const CorrectedScan& scan) {
+  const ChunkedGrid& map = local_maps_.front().grid;
+  const MatchPrior prior = motion_.expect(scan.reference);
+  MatchResult result = matcher_.match(map, points_, prior);
+  const bool poor = result.score < 0.7 * usual_score_ || !is_believable(result);
+  if (poor) {
+    const MatchResult other = matcher_.match(map, points_, motion_.expect_without_wheels(scan.reference));
+    if (is_believable(other) && other.score * other.known > 1.15 * result.score * result.known) {
+      counters_.add("slam.priors_set_aside");
+      result = other;
+    }
+  }
+  if (is_believable(result)) usual_score_ += (usual_score_ == 0 ? 1.0 : 0.1) * (result.score - usual_score_);
+  return result;
+}
+
+bool Slam::is_believable(const MatchResult& result) const {
+  return result.known > 0.1 && result.matched > 0.4;
+}
+
+void Slam::begin_local_map(const Pose2& map_T_robot, Time t) {
+  local_maps_.emplace_back(config_.cell_size_m, static_cast<std::size_t>(config_.max_chunks), map_T_robot, t);
+  ++local_maps_begun_;
+}
+
+/// Keeps two local maps going, half a map apart, so that no scan is matched against an empty one. Scans taken standing
+/// are drawn but do not count.
+void Slam::count_scan(const Pose2& map_T_robot, Time t) {
+  const Pose2 moved = last_counted_.inverse() * map_T_robot;
+  const double distance = moved.translation().norm();
+  if (local_maps_.empty()) {
+    begin_local_map(map_T_robot, t);
+  } else if (distance < kStanding_m && std::abs(moved.yaw) < kStanding_rad) {
+    return;
+  }
+  last_counted_ = map_T_robot;
+  for (LocalMap& m : local_maps_) {
+    m.scans += 1;
+    m.travel_m += m.scans > 1 ? distance : 0.0;
+  }
+  const LocalMap& older = local_maps_.front();
+  if (older.scans >= config_.scans_per_local_map || older.travel_m >= config_.travel_per_local_map_m) {
+    if (local_maps_.size() > 1) local_maps_.pop_front();
+  }
+  const LocalMap& oldest = local_maps_.front();
+  const bool half = 2 * oldest.scans >= config_.scans_per_local_map || 2 * oldest.travel_m >= config_.travel_per_local_map_m;
+  if (half && local_maps_.size() < 2) begin_local_map(map_T_robot, t);
+}
+
+void Slam::insert(const CorrectedScan& scan, const Pose2& map_T_robot) {
+  const double max_wedge = std::min(2.5 * scan.beam_step_rad, radians(5.0));
+  const ScanFootprint& footprint =
+      free_space_.trace(map_T_robot * scan.robot_T_lidar, scan.ends_lidar, max_wedge, config_.cell_size_m);
+  for (LocalMap& m : local_maps_) m.grid.apply(footprint);
+  global_map_.apply(footprint);
+}
+
+/// The scan's pose is that of its middle; its stamp is that of its first beam, a few centimetres of way earlier.
+Pose2 Slam::pose_at_stamp(const Scan& scan, const CorrectedScan& corrected, const Pose2& map_T_robot) const {
+  const Pose2 back = motion_.motion_around(corrected.reference)(scan.stamp);
+  Pose2 at = map_T_robot * back;
+  if (motion_.has_fix() && motion_.last_time() <= scan.stamp && corrected.reference > motion_.last_time()) {
+    const double share =
+        to_seconds(scan.stamp - motion_.last_time()) / to_seconds(corrected.reference - motion_.last_time());
+    const Pose2 between = interpolate(motion_.last_pose(), map_T_robot, share);
+    at.x = between.x;
+    at.y = between.y;
+  }
+  return at;
+}
+
+Counters Slam::counters() const {
+  Counters all = counters_;
+  const auto add = [&](std::string_view name, std::uint64_t n) {
+    if (n > 0) all.add(name, n);
+  };
+  add("imu.spikes_smoothed", motion_.imu().spikes_smoothed());
+  add("imu.samples_out_of_order", motion_.imu().out_of_order());
+  add("odometry.samples_out_of_order", motion_.odometry().out_of_order());
+  add("map.cells_refused", global_map_.cells_refused());
+  return all;
+}
+
+}  // namespace dynslam
