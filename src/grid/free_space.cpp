@@ -17,6 +17,18 @@ bool on_one_surface(const RayEnd& a, const RayEnd& b) {
   return step <= 0.1F + 3.0F * arc;
 }
 
+/// Whether the surface between two ends is as good as seen: they are more than a cell apart, and the line between them
+/// is not so steep that it may be the edge of one thing before another.
+bool is_surface_between(const RayEnd& a, const RayEnd& b, double max_wedge_rad, double cell_size_m) {
+  constexpr float kLongest_m = 0.6F;
+  const float wedge = b.bearing_rad - a.bearing_rad;
+  if (wedge <= 0 || wedge > max_wedge_rad) return false;
+  const float step = std::abs(a.range_m - b.range_m);
+  const float arc = std::min(a.range_m, b.range_m) * wedge;
+  const float length = std::hypot(step, arc);
+  return length > 1.5F * static_cast<float>(cell_size_m) && length < kLongest_m && step <= 0.03F + 3.0F * arc;
+}
+
 /// Bits from each toggle on: bit b of the result is the parity of bits 0..b.
 std::uint64_t parity_up_to_each_bit(std::uint64_t word) {
   for (int shift = 1; shift < 64; shift *= 2) word ^= word << shift;
@@ -32,7 +44,7 @@ const ScanFootprint& FreeSpace::trace(const Pose2& grid_T_origin, std::span<cons
   outline(ends, max_wedge_rad);
   fill();
   for (const Corner end : lone_) walk_lone_ray(end);
-  mark_hits(ends);
+  mark_hits(ends, max_wedge_rad, cell_size_m);
   return footprint_;
 }
 
@@ -131,19 +143,29 @@ void FreeSpace::walk_lone_ray(Corner end) {
            [&](CellIndex c) { footprint_.misses.set({c.x + first.x, c.y + first.y}); });
 }
 
-/// Notes each hit cell once, and takes it and its ring out of the misses: rays that graze a wall would eat it.
-void FreeSpace::mark_hits(std::span<const RayEnd> ends) {
+/// Notes a hit cell once, and takes it and its ring out of the misses: rays that graze a wall would eat it.
+void FreeSpace::mark_hit(CellIndex c) {
+  if (hit_bits_.test(c)) return;
+  hit_bits_.set(c);
+  footprint_.hits.push_back(c);
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) footprint_.misses.clear({c.x + dx, c.y + dy});
+  }
+}
+
+/// The cells of the ends and, where two rays next to each other clearly ended on one surface, of the surface between.
+void FreeSpace::mark_hits(std::span<const RayEnd> ends, double max_wedge_rad, double cell_size_m) {
   const CellIndex first = hit_bits_.first();
   footprint_.hits.clear();
   for (std::size_t i = 0; i < ends.size(); ++i) {
     if (!ends[i].hit) continue;
-    const CellIndex c{first.x + static_cast<std::int32_t>(std::floor(corners_[i].x)),
-                      first.y + static_cast<std::int32_t>(std::floor(corners_[i].y))};
-    if (hit_bits_.test(c)) continue;
-    hit_bits_.set(c);
-    footprint_.hits.push_back(c);
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) footprint_.misses.clear({c.x + dx, c.y + dy});
+    const std::size_t j = i + 1 < ends.size() ? i + 1 : 0;
+    if (ends[j].hit && is_surface_between(ends[i], ends[j], max_wedge_rad, cell_size_m)) {
+      walk_ray({corners_[i].x, corners_[i].y}, {corners_[j].x, corners_[j].y}, 1.0,
+               [&](CellIndex c) { mark_hit({c.x + first.x, c.y + first.y}); });
+    } else {
+      mark_hit({first.x + static_cast<std::int32_t>(std::floor(corners_[i].x)),
+                first.y + static_cast<std::int32_t>(std::floor(corners_[i].y))});
     }
   }
 }

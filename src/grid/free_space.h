@@ -44,7 +44,8 @@ class FreeSpace {
   void outline(std::span<const RayEnd> ends, double max_wedge_rad);
   void fill();
   void walk_lone_ray(Corner end);
-  void mark_hits(std::span<const RayEnd> ends);
+  void mark_hit(CellIndex c);
+  void mark_hits(std::span<const RayEnd> ends, double max_wedge_rad, double cell_size_m);
 
   ScanFootprint footprint_;
   CellBitmap hit_bits_;

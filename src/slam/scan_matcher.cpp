@@ -17,6 +17,7 @@ constexpr int kMostFineHalf = 7;     ///< a row of 2 * 7 + 1 shifts is one load
 constexpr std::size_t kMostSparse = 360;
 constexpr std::size_t kCandidates = 4;
 constexpr int kMostIterations = 12;
+constexpr float kOnHit = 0.03F;  ///< a point this much on hits is on the map: half a cell beside a single look
 
 }  // namespace
 
@@ -140,7 +141,7 @@ ScanMatcher::Candidate ScanMatcher::search_all(const Pose2& centre, double half_
   return best;
 }
 
-/// Gauss-Newton on the sum of weight * (1 - smooth hit)^2 and the prior, all in cells. Hits that are not on the map, a
+/// Newton steps up the sum of weight * smooth hit, with the prior, all in cells. Hits that are not on the map, a
 /// person's say, lie where the map is flat: they push nowhere. `information` becomes that of the result.
 Pose2 ScanMatcher::refine(std::span<const MatchPoint> points, Pose2 pose, const Pose2& prior,
                           const Eigen::Matrix3d& prior_info, Eigen::Matrix3d& information) const {
@@ -170,7 +171,7 @@ void ScanMatcher::judge(const ChunkedGrid& map, std::span<const MatchPoint> poin
     all += 1;
     const CellIndex cell{static_cast<std::int32_t>(std::floor(pose.x + dx)),
                          static_cast<std::int32_t>(std::floor(pose.y + dy))};
-    const bool on_hit = hit > 0.1F;
+    const bool on_hit = hit > kOnHit;
     if (!on_hit && map.state(cell) == CellState::kUnknown) continue;
     known += 1;
     matched += on_hit ? 1 : 0;

@@ -34,7 +34,7 @@ struct ScanMatcherConfig {
 /// Finds the pose from which a scan's points lie best on the hits of a map.
 ///
 /// First an exhaustive search over x, y and yaw, a byte load scoring 16 neighbouring x at once (correlative matching,
-/// Olson 2009); wide windows begin on cells four times as large. Then Gauss-Newton on the hit plane seen through a
+/// Olson 2009); wide windows begin on cells four times as large. Then Newton steps on the hit plane seen through a
 /// cubic B-spline, which is smooth below the size of a cell, with the prior as one more measurement.
 /// Keeps its buffers between calls. One thread.
 class ScanMatcher {

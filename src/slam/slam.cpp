@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 namespace dynslam {
@@ -136,6 +138,7 @@ MatchResult Slam::locate(const CorrectedScan& scan) {
       result = other;
     }
   }
+  if (std::getenv("DBG")) std::fprintf(stderr,"D %.3f prior %.3f %.3f %.3f s %.3f %.3f -> %.3f %.3f %.3f score %.3f m %.2f k %.2f usual %.3f poor %d n %zu\n", seconds_of(scan.reference), prior.map_T_robot.x,prior.map_T_robot.y,prior.map_T_robot.yaw,prior.sigma_xy_m,prior.sigma_yaw_rad,result.map_T_robot.x-prior.map_T_robot.x,result.map_T_robot.y-prior.map_T_robot.y,result.map_T_robot.yaw-prior.map_T_robot.yaw,result.score,result.matched,result.known,usual_score_,int(poor),points_.size());
   if (is_believable(result)) usual_score_ += (usual_score_ == 0 ? 1.0 : 0.1) * (result.score - usual_score_);
   return result;
 }
