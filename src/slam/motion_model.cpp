@@ -52,7 +52,7 @@ MatchPrior MotionModel::expect(Time t) const {
     step = *wheels;
     const double travel = step.translation().norm(), turned = std::abs(step.yaw);
     prior.sigma_xy_m = 0.015 + 0.1 * travel + 0.03 * turned;
-    prior.sigma_yaw_rad = 0.006 + 0.06 * turned + 0.05 * travel;
+    prior.sigma_yaw_rad = 0.01 + 0.2 * turned + 0.05 * travel;
   }
   if (const auto turned = imu_turn(time_, t)) {
     step.yaw = *turned;

@@ -26,24 +26,23 @@ MatchResult ScanMatcher::match(const ChunkedGrid& map, std::span<const MatchPoin
   const double cell = map.cell_size_m();
   const Pose2 expected{prior.map_T_robot.x / cell, prior.map_T_robot.y / cell, prior.map_T_robot.yaw};
   const double sigma_cells = prior.sigma_xy_m / cell;
-  Eigen::Matrix3d prior_info = Eigen::Matrix3d::Zero();
-  prior_info.diagonal() << 1 / (sigma_cells * sigma_cells), 1 / (sigma_cells * sigma_cells),
-      1 / (prior.sigma_yaw_rad * prior.sigma_yaw_rad);
+  expected_.xy_information = 1 / (sigma_cells * sigma_cells);
+  expected_.yaw_information = 1 / (prior.sigma_yaw_rad * prior.sigma_yaw_rad);
+  expected_.evidence = 1 / std::max(0.05, prior.usual_score);
   MatchResult result;
-  Eigen::Matrix3d information = prior_info;
+  Eigen::Matrix3d information =
+      Eigen::Vector3d(expected_.xy_information, expected_.xy_information, expected_.yaw_information).asDiagonal();
   Pose2 found = expected;
   if (!points_robot.empty() && map.chunk_count() > 0) {
     const double half_xy = std::max(config_.search_half_width_m / cell, config_.window_sigmas * sigma_cells);
     const double half_yaw = config_.window_sigmas * prior.sigma_yaw_rad;
     fine_.load(map, points_robot, expected, static_cast<float>(half_xy + 2 * kCoarse),
                static_cast<float>(1.2 * half_yaw + 0.02));
-    const Vector2 first(fine_.first().x, fine_.first().y);
-    const auto in_window = [&](const Pose2& p) { return Pose2{p.x - first.x(), p.y - first.y(), p.yaw}; };
+    const Pose2 first{static_cast<double>(fine_.first().x), static_cast<double>(fine_.first().y), 0};
+    expected_.window_T_robot = {expected.x - first.x, expected.y - first.y, expected.yaw};
     choose_sparse(points_robot);
-    const Candidate best = search_all(in_window(expected), half_xy, half_yaw);
-    found = refine(points_robot, best.window_T_robot, in_window(expected), prior_info, information);
-    found = {found.x + first.x(), found.y + first.y(), found.yaw};
-    judge(map, points_robot, found, result);
+    found = first * refine(points_robot, search_all(half_xy, half_yaw).window_T_robot, information);
+    judge(map, found, result);
   }
   const Eigen::Vector3d scale(cell, cell, 1.0);
   result.map_T_robot = {found.x * cell, found.y * cell, wrap_angle(found.yaw)};
@@ -65,6 +64,7 @@ void ScanMatcher::choose_sparse(std::span<const MatchPoint> points) {
     sparse_.push_back(p);
   }
   if (sparse_.empty()) sparse_.assign(points.begin(), points.end());
+  weight_of_sparse_ = total / static_cast<double>(sparse_.size());
   std::vector<float> ranges;
   ranges.reserve(sparse_.size());
   for (const MatchPoint& p : sparse_) ranges.push_back(std::hypot(p.x, p.y));
@@ -73,16 +73,22 @@ void ScanMatcher::choose_sparse(std::span<const MatchPoint> points) {
   far_cells_ = std::max(10.0F, *far);
 }
 
-/// Scores every shift of the sparse points by whole cells and every yaw of the range. Returns the best candidates, best
-/// first, at most one a yaw and no two of neighbouring yaws unless fewer were asked for.
+/// Scores every shift of the sparse points by whole cells and every yaw of the range, against the prior. Returns the
+/// best candidates, best first, at most one a yaw. `cell_factor`: cells of the map to one of this window.
 std::vector<ScanMatcher::Candidate> ScanMatcher::search(const HitWindow& window, const Pose2& centre,
-                                                        const SearchRange& range, std::size_t candidates) {
+                                                        const SearchRange& range, double cell_factor,
+                                                        std::size_t candidates) {
   std::vector<Candidate> found;
   offsets_.resize(sparse_.size());
   const int width = 2 * range.half_cells + 1;
+  const auto per_cell = static_cast<float>(1 / cell_factor);
+  const double worth = expected_.evidence * weight_of_sparse_ / 255.0;
+  const double xy_cost = 0.5 * expected_.xy_information * cell_factor * cell_factor;
   for (int k = -range.half_yaws; k <= range.half_yaws; ++k) {
     const double yaw = centre.yaw + k * range.yaw_step_rad;
-    const auto c = static_cast<float>(std::cos(yaw)), s = static_cast<float>(std::sin(yaw));
+    const double yaw_off = turn(expected_.window_T_robot.yaw, yaw);
+    const double yaw_cost = 0.5 * expected_.yaw_information * yaw_off * yaw_off;
+    const auto c = static_cast<float>(std::cos(yaw)) * per_cell, s = static_cast<float>(std::sin(yaw)) * per_cell;
     const auto x0 = static_cast<float>(centre.x), y0 = static_cast<float>(centre.y);
     std::size_t inside = 0;
     for (const MatchPoint& p : sparse_) {
@@ -91,20 +97,23 @@ std::vector<ScanMatcher::Candidate> ScanMatcher::search(const HitWindow& window,
       if (!window.contains(x, y - range.half_cells) || !window.contains(x + width - 1, y + range.half_cells)) continue;
       offsets_[inside++] = y * window.stride() + x;
     }
-    Candidate best;
+    Candidate best{centre, -1e300};
     for (int dy = -range.half_cells; dy <= range.half_cells; ++dy) {
+      const double off_y = centre.y + dy - expected_.window_T_robot.y / cell_factor;
       for (int left = 0; left < width; left += HitWindow::kLanes) {
         const Scores16 scores = score_16_shifts(window.data() + static_cast<std::ptrdiff_t>(dy) * window.stride() + left,
                                                 {offsets_.data(), inside});
         const int lanes = std::min(HitWindow::kLanes, width - left);
         for (int i = 0; i < lanes; ++i) {
-          if (scores[static_cast<std::size_t>(i)] <= best.score) continue;
           const double dx = left + i - range.half_cells;
-          best = {{centre.x + dx, centre.y + dy, yaw}, scores[static_cast<std::size_t>(i)]};
+          const double off_x = centre.x + dx - expected_.window_T_robot.x / cell_factor;
+          const double score =
+              worth * scores[static_cast<std::size_t>(i)] - xy_cost * (off_x * off_x + off_y * off_y) - yaw_cost;
+          if (score > best.score) best = {{centre.x + dx, centre.y + dy, yaw}, score};
         }
       }
     }
-    if (best.score > 0) found.push_back(best);
+    found.push_back(best);
   }
   const auto better = [](const Candidate& a, const Candidate& b) { return a.score > b.score; };
   const auto keep = found.begin() + static_cast<std::ptrdiff_t>(std::min(found.size(), candidates));
@@ -114,54 +123,48 @@ std::vector<ScanMatcher::Candidate> ScanMatcher::search(const HitWindow& window,
 }
 
 /// The best cell and yaw of the whole range: at once where a row of it is one load, else coarse first.
-ScanMatcher::Candidate ScanMatcher::search_all(const Pose2& centre, double half_xy_cells, double half_yaw_rad) {
+ScanMatcher::Candidate ScanMatcher::search_all(double half_xy_cells, double half_yaw_rad) {
+  const Pose2& centre = expected_.window_T_robot;
   const double fine_yaw = 1.0 / far_cells_;
-  const Candidate at_centre{centre, 0};
   if (half_xy_cells <= kMostFineHalf && half_yaw_rad / fine_yaw <= 16) {
     const SearchRange range{static_cast<int>(std::ceil(half_xy_cells)), static_cast<int>(std::ceil(half_yaw_rad / fine_yaw)),
                             fine_yaw};
-    const auto found = search(fine_, centre, range, 1);
-    return found.empty() ? at_centre : found.front();
+    return search(fine_, centre, range, 1, 1).front();
   }
   coarse_.pool(fine_, kCoarse);
-  const std::vector<MatchPoint> full = sparse_;
-  for (MatchPoint& p : sparse_) p = {p.x / kCoarse, p.y / kCoarse, p.weight};
   const double coarse_yaw = kCoarse * fine_yaw;
   const SearchRange wide{static_cast<int>(std::ceil(half_xy_cells / kCoarse)),
                          static_cast<int>(std::ceil(half_yaw_rad / coarse_yaw)), coarse_yaw};
-  const auto rough = search(coarse_, {centre.x / kCoarse, centre.y / kCoarse, centre.yaw}, wide, kCandidates);
-  sparse_ = full;
-  Candidate best = at_centre;
-  for (const Candidate& r : rough) {
+  Candidate best{centre, -1e300};
+  for (const Candidate& r : search(coarse_, {centre.x / kCoarse, centre.y / kCoarse, centre.yaw}, wide, kCoarse, kCandidates)) {
     const Pose2 around{r.window_T_robot.x * kCoarse, r.window_T_robot.y * kCoarse, r.window_T_robot.yaw};
-    for (const Candidate& c : search(fine_, around, {kCoarse, kCoarse / 2 + 1, fine_yaw}, 1)) {
-      if (c.score > best.score) best = c;
-    }
+    const Candidate c = search(fine_, around, {kCoarse, kCoarse / 2 + 1, fine_yaw}, 1, 1).front();
+    if (c.score > best.score) best = c;
   }
   return best;
 }
 
 /// Newton steps up the sum of weight * smooth hit, with the prior, all in cells. Hits that are not on the map, a
 /// person's say, lie where the map is flat: they push nowhere. `information` becomes that of the result.
-Pose2 ScanMatcher::refine(std::span<const MatchPoint> points, Pose2 pose, const Pose2& prior,
-                          const Eigen::Matrix3d& prior_info, Eigen::Matrix3d& information) const {
+Pose2 ScanMatcher::refine(std::span<const MatchPoint> points, Pose2 pose, Eigen::Matrix3d& information) const {
   const Pose2 start = pose;
+  const Pose2& prior = expected_.window_T_robot;
+  const Eigen::Matrix3d prior_info = information;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     const Eigen::Vector3d off(prior.x - pose.x, prior.y - pose.y, turn(pose.yaw, prior.yaw));
     const HitFit fit = fit_to_hits(fine_, points, pose);
-    information = fit.information + prior_info;
-    const Eigen::Vector3d step = information.ldlt().solve(fit.gradient + prior_info * off);
+    information = expected_.evidence * fit.information + prior_info;
+    const Eigen::Vector3d step = information.ldlt().solve(expected_.evidence * fit.gradient + prior_info * off);
     pose = {pose.x + step.x(), pose.y + step.y(), pose.yaw + step.z()};
     const bool strayed = std::abs(pose.x - start.x) > 3 || std::abs(pose.y - start.y) > 3;
     if (strayed || !is_finite(pose)) return start;
-    if (step.head<2>().norm() < 0.005 && std::abs(step.z()) * far_cells_ < 0.005) break;
+    if (step.head<2>().norm() < 0.01 && std::abs(step.z()) * far_cells_ < 0.01) break;
   }
   return pose;
 }
 
 /// How much of the scan the map explains at the pose found.
-void ScanMatcher::judge(const ChunkedGrid& map, std::span<const MatchPoint> points, const Pose2& pose,
-                        MatchResult& result) const {
+void ScanMatcher::judge(const ChunkedGrid& map, const Pose2& pose, MatchResult& result) const {
   const auto c = static_cast<float>(std::cos(pose.yaw)), s = static_cast<float>(std::sin(pose.yaw));
   const Pose2 in_window{pose.x - fine_.first().x, pose.y - fine_.first().y, pose.yaw};
   double all = 0, known = 0, matched = 0, smooth = 0;
@@ -177,7 +180,6 @@ void ScanMatcher::judge(const ChunkedGrid& map, std::span<const MatchPoint> poin
     matched += on_hit ? 1 : 0;
     smooth += hit;
   }
-  (void)points;
   result.known = all > 0 ? known / all : 0;
   result.matched = known > 0 ? matched / known : 0;
   result.score = known > 0 ? smooth / known : 0;

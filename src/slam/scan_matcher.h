@@ -16,6 +16,9 @@ struct MatchPrior {
   Pose2 map_T_robot;
   double sigma_xy_m = 0.03;
   double sigma_yaw_rad = 0.01;
+  /// The score that scans usually have on this map, 0 to 1: on a young map, or one of sparse scans, few looks have to
+  /// outweigh the prior as many do on a sure one.
+  double usual_score = 1.0;
 };
 
 struct MatchResult {
@@ -48,7 +51,13 @@ class ScanMatcher {
  private:
   struct Candidate {
     Pose2 window_T_robot;  ///< cells
-    std::uint32_t score = 0;
+    double score = 0.0;    ///< sum of weight * hit, less what the prior holds against it
+  };
+  /// The prior as the matcher works with it: cells, in the window.
+  struct Expectation {
+    Pose2 window_T_robot;
+    double xy_information = 0.0, yaw_information = 0.0;
+    double evidence = 1.0;  ///< worth of one point that lies fully on a hit
   };
   struct SearchRange {
     int half_cells = 0;
@@ -57,18 +66,18 @@ class ScanMatcher {
   };
 
   std::vector<Candidate> search(const HitWindow& window, const Pose2& centre, const SearchRange& range,
-                                std::size_t candidates);
-  Candidate search_all(const Pose2& centre, double half_xy_cells, double half_yaw_rad);
+                                double cell_factor, std::size_t candidates);
+  Candidate search_all(double half_xy_cells, double half_yaw_rad);
   void choose_sparse(std::span<const MatchPoint> points);
-  Pose2 refine(std::span<const MatchPoint> points, Pose2 pose, const Pose2& prior, const Eigen::Matrix3d& prior_info,
-               Eigen::Matrix3d& information) const;
-  void judge(const ChunkedGrid& map, std::span<const MatchPoint> points, const Pose2& map_T_robot_cells,
-             MatchResult& result) const;
+  Pose2 refine(std::span<const MatchPoint> points, Pose2 pose, Eigen::Matrix3d& information) const;
+  void judge(const ChunkedGrid& map, const Pose2& map_T_robot_cells, MatchResult& result) const;
 
   ScanMatcherConfig config_;
+  Expectation expected_;  ///< of the match at hand
   HitWindow fine_;
   HitWindow coarse_;
   std::vector<MatchPoint> sparse_;    ///< the points that the exhaustive search looks at
+  double weight_of_sparse_ = 1.0;     ///< points that each of them stands for
   float far_cells_ = 0.0F;            ///< most of the sparse points are nearer
   std::vector<std::int32_t> offsets_;
 };

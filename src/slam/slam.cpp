@@ -124,16 +124,18 @@ CorrectedScan Slam::correct(const Scan& scan) {
   return egomotion_pass(scan, rays, motion_.motion_around(reference_time(scan)));
 }
 
-/// Where the scan was taken, by the map. A prior that the scan contradicts is set aside for a wider look around where
-/// the robot was last heading.
+/// Where the scan was taken, by the map. A prior that the scan contradicts is set aside for a wider look.
 MatchResult Slam::locate(const CorrectedScan& scan) {
   const ChunkedGrid& map = local_maps_.front().grid;
-  const MatchPrior prior = motion_.expect(scan.reference);
+  MatchPrior prior = motion_.expect(scan.reference);
+  prior.usual_score = usual_score_ > 0 ? usual_score_ : 0.1;
   MatchResult result = matcher_.match(map, points_, prior);
-  const bool poor = result.score < 0.7 * usual_score_ || !is_believable(result);
+  const bool poor = result.matched < 0.6;
   if (poor) {
-    const MatchResult other = matcher_.match(map, points_, motion_.expect_without_wheels(scan.reference));
-    if (is_believable(other) && other.score * other.known > 1.15 * result.score * result.known) {
+    MatchPrior wide = motion_.expect_without_wheels(scan.reference);
+    wide.usual_score = prior.usual_score;
+    const MatchResult other = matcher_.match(map, points_, wide);
+    if (is_believable(other) && other.matched > result.matched + 0.2) {
       counters_.add("slam.priors_set_aside");
       result = other;
     }
