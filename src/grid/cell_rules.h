@@ -10,8 +10,12 @@
 /// Each cell has two bytes, hit and miss: 0 = never seen .. 255 = sure.
 namespace dynslam {
 
-inline constexpr std::uint8_t kGain = 26;     ///< what a look adds to the plane it speaks for: ten looks make sure
-inline constexpr std::uint8_t kLoss = 13;     ///< what it takes from the other plane
+/// What a look adds to the plane it speaks for, and takes from the other one.
+struct CellRule {
+  std::uint8_t gain = 26;  ///< ten looks make sure
+  std::uint8_t loss = 13;
+};
+
 inline constexpr std::uint8_t kSureHit = 52;  ///< fewer hits than this may be noise
 
 constexpr std::uint8_t raised(std::uint8_t value, std::uint8_t by) {

@@ -22,19 +22,19 @@ constexpr std::array<std::uint64_t, 256> make_spread() {
 }
 constexpr auto kSpread = make_spread();
 
-void miss_whole_row(Row& hit, Row& miss) {
+void miss_whole_row(Row& hit, Row& miss, CellRule rule) {
   for (int i = 0; i < kChunkSide; ++i) {
-    hit[i] = lowered(hit[i], kLoss);
-    miss[i] = raised(miss[i], kGain);
+    hit[i] = lowered(hit[i], rule.loss);
+    miss[i] = raised(miss[i], rule.gain);
   }
 }
 
-void miss_row(Row& hit, Row& miss, std::uint64_t cells) {
+void miss_row(Row& hit, Row& miss, std::uint64_t cells, CellRule rule) {
   alignas(64) Row chosen;
   for (int i = 0; i < 8; ++i) std::memcpy(chosen + 8 * i, &kSpread[(cells >> (8 * i)) & 0xFF], 8);
   for (int i = 0; i < kChunkSide; ++i) {
-    hit[i] = lowered(hit[i], static_cast<std::uint8_t>(chosen[i] & kLoss));
-    miss[i] = raised(miss[i], static_cast<std::uint8_t>(chosen[i] & kGain));
+    hit[i] = lowered(hit[i], static_cast<std::uint8_t>(chosen[i] & rule.loss));
+    miss[i] = raised(miss[i], static_cast<std::uint8_t>(chosen[i] & rule.gain));
   }
 }
 
@@ -92,8 +92,8 @@ void ChunkedGrid::add_hit(CellIndex c) {
   }
   std::uint8_t& hit = chunk->hit[c.y & kChunkMask][c.x & kChunkMask];
   std::uint8_t& miss = chunk->miss[c.y & kChunkMask][c.x & kChunkMask];
-  hit = raised(hit, kGain);
-  miss = lowered(miss, kLoss);
+  hit = raised(hit, rule_.gain);
+  miss = lowered(miss, rule_.loss);
 }
 
 void ChunkedGrid::add_miss(CellIndex c) {
@@ -104,8 +104,8 @@ void ChunkedGrid::add_miss(CellIndex c) {
   }
   std::uint8_t& hit = chunk->hit[c.y & kChunkMask][c.x & kChunkMask];
   std::uint8_t& miss = chunk->miss[c.y & kChunkMask][c.x & kChunkMask];
-  hit = lowered(hit, kLoss);
-  miss = raised(miss, kGain);
+  hit = lowered(hit, rule_.loss);
+  miss = raised(miss, rule_.gain);
 }
 
 void ChunkedGrid::apply(const ScanFootprint& footprint) {
@@ -128,9 +128,9 @@ void ChunkedGrid::apply_misses(const CellBitmap& misses, ChunkIndex index) {
     if (!chunk) {
       cells_refused_ += static_cast<std::uint64_t>(std::popcount(cells));
     } else if (~cells == 0) {
-      miss_whole_row(chunk->hit[r], chunk->miss[r]);
+      miss_whole_row(chunk->hit[r], chunk->miss[r], rule_);
     } else {
-      miss_row(chunk->hit[r], chunk->miss[r], cells);
+      miss_row(chunk->hit[r], chunk->miss[r], cells, rule_);
     }
   }
 }

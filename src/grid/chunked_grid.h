@@ -48,8 +48,8 @@ struct ScanFootprint {
 /// a fresh copy, so that no reader sees a chunk change.
 class ChunkedGrid {
  public:
-  explicit ChunkedGrid(double cell_size_m, std::size_t max_chunks = 32768)
-      : cell_size_m_(cell_size_m), max_chunks_(max_chunks) {}
+  explicit ChunkedGrid(double cell_size_m, std::size_t max_chunks = 32768, CellRule rule = {})
+      : cell_size_m_(cell_size_m), max_chunks_(max_chunks), rule_(rule) {}
 
   double cell_size_m() const { return cell_size_m_; }
   const ChunkBox& box() const { return box_; }
@@ -78,6 +78,7 @@ class ChunkedGrid {
 
   double cell_size_m_;
   std::size_t max_chunks_;
+  CellRule rule_;
   ChunkTable table_;
   ChunkBox box_;
   std::uint64_t epoch_ = 0;

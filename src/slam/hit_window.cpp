@@ -21,7 +21,7 @@ void HitWindow::shape(int chunks_wide, int chunks_high, int side) {
 }
 
 void HitWindow::load(const ChunkedGrid& grid, std::span<const MatchPoint> points, const Pose2& grid_T_robot, float reach,
-                     float turn_rad) {
+                     float turn_rad, float gain, std::uint8_t unknown) {
   const auto c = static_cast<float>(std::cos(grid_T_robot.yaw)), s = static_cast<float>(std::sin(grid_T_robot.yaw));
   const auto place = [&](const MatchPoint& p) {
     return std::pair{grid_T_robot.x + (c * p.x - s * p.y), grid_T_robot.y + (s * p.x + c * p.y)};
@@ -49,16 +49,20 @@ void HitWindow::load(const ChunkedGrid& grid, std::span<const MatchPoint> points
       for (int cx = left; cx <= right; ++cx) wanted_[static_cast<std::size_t>(cy * chunks_wide_ + cx)] = 1;
     }
   }
+  const int gain_256 = static_cast<int>(gain * 256);
   for (int cy = 0; cy < box.height(); ++cy) {
     for (int cx = 0; cx < box.width(); ++cx) {
       if (!wanted_[static_cast<std::size_t>(cy * chunks_wide_ + cx)]) continue;
       const Chunk* from = grid.find({box.min.x + cx, box.min.y + cy});
       std::uint8_t* to = data_.get() + static_cast<std::ptrdiff_t>(cy * kChunkSide) * stride_ + cx * kChunkSide;
       for (int r = 0; r < kChunkSide; ++r, to += stride_) {
-        if (from) {
-          std::memcpy(to, from->hit[r], kChunkSide);
+        if (!from) {
+          std::memset(to, unknown, kChunkSide);
         } else {
-          std::memset(to, 0, kChunkSide);
+          for (int i = 0; i < kChunkSide; ++i) {
+            const int hit = std::min(255, (from->hit[r][i] * gain_256) >> 8);
+            to[i] = from->hit[r][i] == 0 && from->miss[r][i] == 0 ? unknown : static_cast<std::uint8_t>(hit);
+          }
         }
       }
     }

@@ -27,9 +27,10 @@ class HitWindow {
   static constexpr int kLanes = 16;
 
   /// Copies what `points`, at grid_T_robot (x, y in cells), can reach when moved by up to `reach` cells either way and
-  /// turned by up to `turn_rad`.
+  /// turned by up to `turn_rad`. Bytes are multiplied by `gain`, up to 255; cells that were
+  /// never seen become `unknown` instead of 0.
   void load(const ChunkedGrid& grid, std::span<const MatchPoint> points, const Pose2& grid_T_robot, float reach,
-            float turn_rad);
+            float turn_rad, float gain = 1, std::uint8_t unknown = 0);
   /// The maximum of each block of `factor` by `factor` cells of `fine`, where `fine` holds something.
   void pool(const HitWindow& fine, int factor);
 

@@ -17,7 +17,21 @@ constexpr int kMostFineHalf = 7;     ///< a row of 2 * 7 + 1 shifts is one load
 constexpr std::size_t kMostSparse = 360;
 constexpr std::size_t kCandidates = 4;
 constexpr int kMostIterations = 12;
+/// In a wide search a point in space that was never seen is worth this much, of 255 for one on a hit; in free space it
+/// is worth nothing. Otherwise the search would rather stay where the map is known than follow the robot into the new.
+constexpr std::uint8_t kUnknownWorth = 100;
+/// Beams next to each other err together: a point counts as this much of an independent one.
+constexpr double kEvidence = 0.3;
 constexpr float kOnHit = 0.03F;  ///< a point this much on hits is on the map: half a cell beside a single look
+
+/// What hit bytes are multiplied by before matching. On a map that saw each wall some twenty times, counts show where in
+/// the noise the wall is. On a map of a few looks they say little but that there is a wall, and the more one-look cells
+/// count like any other the better; in between it is a matter of degree.
+float gain_for(double usual_hit) {
+  constexpr double kSureHit = 180.0, kMost = 20.0;
+  const double short_of = kSureHit / std::max(1.0, usual_hit);
+  return static_cast<float>(std::clamp(short_of * short_of * short_of, 1.0, kMost));
+}
 
 }  // namespace
 
@@ -28,7 +42,7 @@ MatchResult ScanMatcher::match(const ChunkedGrid& map, std::span<const MatchPoin
   const double sigma_cells = prior.sigma_xy_m / cell;
   expected_.xy_information = 1 / (sigma_cells * sigma_cells);
   expected_.yaw_information = 1 / (prior.sigma_yaw_rad * prior.sigma_yaw_rad);
-  expected_.evidence = 1 / std::max(0.05, prior.usual_score);
+  const float gain = gain_for(prior.usual_hit);
   MatchResult result;
   Eigen::Matrix3d information =
       Eigen::Vector3d(expected_.xy_information, expected_.xy_information, expected_.yaw_information).asDiagonal();
@@ -36,12 +50,18 @@ MatchResult ScanMatcher::match(const ChunkedGrid& map, std::span<const MatchPoin
   if (!points_robot.empty() && map.chunk_count() > 0) {
     const double half_xy = std::max(config_.search_half_width_m / cell, config_.window_sigmas * sigma_cells);
     const double half_yaw = config_.window_sigmas * prior.sigma_yaw_rad;
-    fine_.load(map, points_robot, expected, static_cast<float>(half_xy + 2 * kCoarse),
-               static_cast<float>(1.2 * half_yaw + 0.02));
+    const bool wide = half_xy > kMostFineHalf;
+    const auto load = [&](std::uint8_t unknown) {
+      fine_.load(map, points_robot, expected, static_cast<float>(half_xy + 2 * kCoarse),
+                 static_cast<float>(1.2 * half_yaw + 0.02), gain, unknown);
+    };
+    load(wide ? kUnknownWorth : std::uint8_t{0});
     const Pose2 first{static_cast<double>(fine_.first().x), static_cast<double>(fine_.first().y), 0};
     expected_.window_T_robot = {expected.x - first.x, expected.y - first.y, expected.yaw};
     choose_sparse(points_robot);
-    found = first * refine(points_robot, search_all(half_xy, half_yaw).window_T_robot, information);
+    const Candidate best = search_all(half_xy, half_yaw);
+    if (wide) load(0);
+    found = first * refine(points_robot, best.window_T_robot, information);
     judge(map, found, result);
   }
   const Eigen::Vector3d scale(cell, cell, 1.0);
@@ -82,7 +102,7 @@ std::vector<ScanMatcher::Candidate> ScanMatcher::search(const HitWindow& window,
   offsets_.resize(sparse_.size());
   const int width = 2 * range.half_cells + 1;
   const auto per_cell = static_cast<float>(1 / cell_factor);
-  const double worth = expected_.evidence * weight_of_sparse_ / 255.0;
+  const double worth = kEvidence * weight_of_sparse_ / 255.0;
   const double xy_cost = 0.5 * expected_.xy_information * cell_factor * cell_factor;
   for (int k = -range.half_yaws; k <= range.half_yaws; ++k) {
     const double yaw = centre.yaw + k * range.yaw_step_rad;
@@ -153,8 +173,8 @@ Pose2 ScanMatcher::refine(std::span<const MatchPoint> points, Pose2 pose, Eigen:
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     const Eigen::Vector3d off(prior.x - pose.x, prior.y - pose.y, turn(pose.yaw, prior.yaw));
     const HitFit fit = fit_to_hits(fine_, points, pose);
-    information = expected_.evidence * fit.information + prior_info;
-    const Eigen::Vector3d step = information.ldlt().solve(expected_.evidence * fit.gradient + prior_info * off);
+    information = kEvidence * fit.information + prior_info;
+    const Eigen::Vector3d step = information.ldlt().solve(kEvidence * fit.gradient + prior_info * off);
     pose = {pose.x + step.x(), pose.y + step.y(), pose.yaw + step.z()};
     const bool strayed = std::abs(pose.x - start.x) > 3 || std::abs(pose.y - start.y) > 3;
     if (strayed || !is_finite(pose)) return start;
@@ -167,19 +187,23 @@ Pose2 ScanMatcher::refine(std::span<const MatchPoint> points, Pose2 pose, Eigen:
 void ScanMatcher::judge(const ChunkedGrid& map, const Pose2& pose, MatchResult& result) const {
   const auto c = static_cast<float>(std::cos(pose.yaw)), s = static_cast<float>(std::sin(pose.yaw));
   const Pose2 in_window{pose.x - fine_.first().x, pose.y - fine_.first().y, pose.yaw};
-  double all = 0, known = 0, matched = 0, smooth = 0;
+  double all = 0, known = 0, matched = 0, smooth = 0, hits = 0, hit_bytes = 0;
   for (const MatchPoint& p : sparse_) {
     const float dx = c * p.x - s * p.y, dy = s * p.x + c * p.y;
     const float hit = smooth_hit(fine_, static_cast<float>(in_window.x) + dx, static_cast<float>(in_window.y) + dy);
     all += 1;
     const CellIndex cell{static_cast<std::int32_t>(std::floor(pose.x + dx)),
                          static_cast<std::int32_t>(std::floor(pose.y + dy))};
+    const std::uint8_t byte = map.hit(cell);
+    hits += byte > 0 ? 1 : 0;
+    hit_bytes += byte;
     const bool on_hit = hit > kOnHit;
     if (!on_hit && map.state(cell) == CellState::kUnknown) continue;
     known += 1;
     matched += on_hit ? 1 : 0;
     smooth += hit;
   }
+  result.mean_hit = hits > 0 ? hit_bytes / hits : 0;
   result.known = all > 0 ? known / all : 0;
   result.matched = known > 0 ? matched / known : 0;
   result.score = known > 0 ? smooth / known : 0;

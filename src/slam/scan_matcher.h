@@ -16,9 +16,9 @@ struct MatchPrior {
   Pose2 map_T_robot;
   double sigma_xy_m = 0.03;
   double sigma_yaw_rad = 0.01;
-  /// The score that scans usually have on this map, 0 to 1: on a young map, or one of sparse scans, few looks have to
-  /// outweigh the prior as many do on a sure one.
-  double usual_score = 1.0;
+  /// Mean hit byte (0 to 255) where scans' points lay on this map of late: on a young map, or one of sparse scans, few
+  /// looks have to weigh as much as many do on a sure one.
+  double usual_hit = 255.0;
 };
 
 struct MatchResult {
@@ -27,6 +27,7 @@ struct MatchResult {
   double score = 0.0;          ///< 0 to 1: how well the points lie on the map's hits, of those in space the map knows
   double matched = 0.0;        ///< share of the points in known space that lie on or next to a hit
   double known = 0.0;          ///< share of the points that lie in known space at all
+  double mean_hit = 0.0;       ///< mean hit byte of the cells with hits that points lie in
 };
 
 struct ScanMatcherConfig {
@@ -57,7 +58,6 @@ class ScanMatcher {
   struct Expectation {
     Pose2 window_T_robot;
     double xy_information = 0.0, yaw_information = 0.0;
-    double evidence = 1.0;  ///< worth of one point that lies fully on a hit
   };
   struct SearchRange {
     int half_cells = 0;

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <utility>
 
 namespace dynslam {
@@ -18,6 +16,9 @@ constexpr double kStanding_m = 0.02;
 constexpr double kStanding_rad = 0.01;
 /// After so many scans that the map does not explain, a new map begins where motion sensors say the robot is.
 constexpr int kMostUnmatched = 20;
+/// Below this fit the prior is doubted; it is set aside for an answer that fits so much better.
+constexpr double kPoorFit = 0.25;
+constexpr double kClearlyBetter = 0.2;
 
 /// What a scan has to offer for matching: its hits, in the robot's frame and in cells.
 void choose_points(const CorrectedScan& scan, double cell_size_m, std::vector<MatchPoint>& points) {
@@ -33,6 +34,9 @@ void choose_points(const CorrectedScan& scan, double cell_size_m, std::vector<Ma
                       static_cast<float>(std::min(1.0, arc_cells * e.range_m))});
   }
 }
+
+/// Share of the points that speak for a match less the share that speak against it.
+double fit_of(const MatchResult& result) { return result.known * (2 * result.matched - 1); }
 
 }  // namespace
 
@@ -97,7 +101,8 @@ std::optional<ScanResult> Slam::process(const Scan& scan) {
   result.covariance = match.covariance;
   const Pose2 pose = result.matched || first ? match.map_T_robot : motion_.expect(corrected.reference).map_T_robot;
   result.map_T_robot = pose_at_stamp(scan, corrected, pose);
-  const bool too_fast = std::abs(motion_.yaw_rate(corrected.reference)) > config_.skip_yaw_rate_radps;
+  const bool has_times = !scan.beams.empty() && scan.beams.back().time_s != scan.beams.front().time_s;
+  const bool too_fast = has_times && std::abs(motion_.yaw_rate(corrected.reference)) > config_.skip_yaw_rate_radps;
   motion_.fix(corrected.reference, pose);
 
   enter("insert");
@@ -128,20 +133,18 @@ CorrectedScan Slam::correct(const Scan& scan) {
 MatchResult Slam::locate(const CorrectedScan& scan) {
   const ChunkedGrid& map = local_maps_.front().grid;
   MatchPrior prior = motion_.expect(scan.reference);
-  prior.usual_score = usual_score_ > 0 ? usual_score_ : 0.1;
+  prior.usual_hit = usual_hit_;
   MatchResult result = matcher_.match(map, points_, prior);
-  const bool poor = result.matched < 0.6;
-  if (poor) {
+  if (fit_of(result) < kPoorFit) {
     MatchPrior wide = motion_.expect_without_wheels(scan.reference);
-    wide.usual_score = prior.usual_score;
+    wide.usual_hit = prior.usual_hit;
     const MatchResult other = matcher_.match(map, points_, wide);
-    if (is_believable(other) && other.matched > result.matched + 0.2) {
+    if (is_believable(other) && fit_of(other) > fit_of(result) + kClearlyBetter) {
       counters_.add("slam.priors_set_aside");
       result = other;
     }
   }
-  if (std::getenv("DBG")) std::fprintf(stderr,"D %.3f prior %.3f %.3f %.3f s %.3f %.3f -> %.3f %.3f %.3f score %.3f m %.2f k %.2f usual %.3f poor %d n %zu\n", seconds_of(scan.reference), prior.map_T_robot.x,prior.map_T_robot.y,prior.map_T_robot.yaw,prior.sigma_xy_m,prior.sigma_yaw_rad,result.map_T_robot.x-prior.map_T_robot.x,result.map_T_robot.y-prior.map_T_robot.y,result.map_T_robot.yaw-prior.map_T_robot.yaw,result.score,result.matched,result.known,usual_score_,int(poor),points_.size());
-  if (is_believable(result)) usual_score_ += (usual_score_ == 0 ? 1.0 : 0.1) * (result.score - usual_score_);
+  if (is_believable(result)) usual_hit_ += (usual_hit_ == 0 ? 1.0 : 0.2) * (result.mean_hit - usual_hit_);
   return result;
 }
 

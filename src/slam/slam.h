@@ -84,7 +84,7 @@ class Slam {
   std::size_t local_maps_begun_ = 0;
   ChunkedGrid global_map_;
   Pose2 last_counted_;
-  double usual_score_ = 0.0;
+  double usual_hit_ = 0.0;
   int unmatched_in_a_row_ = 0;
   std::optional<Time> last_stamp_;
   Counters counters_;
