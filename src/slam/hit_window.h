@@ -19,7 +19,7 @@ struct MatchPoint {
 };
 
 /// A copy of the hit plane around the points of a scan in one piece of memory, chunk seams gone, so that a row of it
-/// can be loaded 16 cells at a time. Only chunks that the points can reach are copied; the rest holds what it holds.
+/// can be loaded 16 cells at a time. Only what the points can reach is copied; the rest holds what it holds.
 /// Positions are in cells from the window's lower left cell. Keeps its memory from one call to the next.
 class HitWindow {
  public:
@@ -43,12 +43,14 @@ class HitWindow {
 
  private:
   void shape(int chunks_wide, int chunks_high, int side);
+  void want(CellIndex low, CellIndex high);
+  void copy_band(const Chunk* from, int band, int chunk, unsigned gain_16, std::uint8_t unknown);
 
   CellIndex first_;
   int stride_ = 0;
   int height_ = 0;
   int chunks_wide_ = 0;
-  std::vector<std::uint8_t> wanted_;  ///< a flag for each chunk of the window
+  std::vector<std::uint8_t> wanted_;  ///< a flag for each band of rows of each chunk
   std::unique_ptr<std::uint8_t[]> data_;
   std::size_t capacity_ = 0;
 };

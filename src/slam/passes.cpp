@@ -30,36 +30,62 @@ double beam_step(const Scan& scan) {
          static_cast<double>(scan.beams.size() - 1);
 }
 
+namespace {
+
+/// Sorts ends that come in one or two rising runs, as beams do, without moving them about needlessly.
+void sort_by_bearing(std::vector<RayEnd>& ends) {
+  const auto by_bearing = [](const RayEnd& a, const RayEnd& b) { return a.bearing_rad < b.bearing_rad; };
+  const auto run = std::is_sorted_until(ends.begin(), ends.end(), by_bearing);
+  if (std::is_sorted(run, ends.end(), by_bearing)) {
+    std::inplace_merge(ends.begin(), run, ends.end(), by_bearing);
+  } else {
+    std::sort(ends.begin(), ends.end(), by_bearing);
+  }
+}
+
+}  // namespace
+
 CorrectedScan egomotion_pass(const Scan& scan, const std::vector<Ray>& rays, const MotionInScan& motion) {
   CorrectedScan out;
   out.reference = reference_time(scan);
   out.robot_T_lidar = scan.mount.robot_T_lidar;
   out.beam_step_rad = beam_step(scan);
-  out.ends_lidar.reserve(rays.size());
+  out.ends_lidar.resize(rays.size());
   const Pose2 lidar_T_robot = out.robot_T_lidar.inverse();
-  // The motion is smooth: a pose for every few beams, straight lines in between, is as good as one for each.
-  constexpr std::size_t kStride = 16;
-  Pose2 here, next;
-  float here_s = 0, next_s = 0;
   const auto lidar_at = [&](float time_s) {
     return lidar_T_robot * motion(scan.stamp + from_seconds(time_s)) * out.robot_T_lidar;
   };
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (i % kStride == 0) {
-      here_s = rays[i].time_s;
-      next_s = rays[std::min(i + kStride, rays.size() - 1)].time_s;
-      here = i == 0 ? lidar_at(here_s) : next;
-      next = next_s == here_s ? here : lidar_at(next_s);
+  // The motion is smooth: a pose for every few beams, straight lines in between, is as good as one for each.
+  constexpr std::size_t kStride = 16;
+  Pose2 here = rays.empty() ? Pose2{} : lidar_at(rays.front().time_s);
+  Eigen::ArrayXf angles(static_cast<Eigen::Index>(rays.size()));
+  for (std::size_t begin = 0; begin < rays.size(); begin += kStride) {
+    const std::size_t end = std::min(begin + kStride, rays.size());
+    const float begin_s = rays[begin].time_s, next_s = rays[std::min(end, rays.size() - 1)].time_s;
+    const Pose2 next = next_s == begin_s ? here : lidar_at(next_s);
+    const auto turned = static_cast<float>(turn(here.yaw, next.yaw));
+    const Eigen::Vector2f from = here.translation().cast<float>(), way = (next.translation() - here.translation()).cast<float>();
+    for (std::size_t i = begin; i < end; ++i) {
+      const float share = next_s == begin_s ? 0.0F : (rays[i].time_s - begin_s) / (next_s - begin_s);
+      const Eigen::Vector2f at = from + share * way;
+      out.ends_lidar[i] = {at.x(), at.y(), 0, rays[i].range_m, rays[i].hit};
+      angles[static_cast<Eigen::Index>(i)] = static_cast<float>(here.yaw) + share * turned + rays[i].angle_rad;
     }
-    const float share = next_s == here_s ? 0.0F : (rays[i].time_s - here_s) / (next_s - here_s);
-    const Pose2 lidar = interpolate(here, next, share);
-    const double angle = lidar.yaw + rays[i].angle_rad;
-    const double x = lidar.x + rays[i].range_m * std::cos(angle), y = lidar.y + rays[i].range_m * std::sin(angle);
-    out.ends_lidar.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(std::atan2(y, x)),
-                              static_cast<float>(std::hypot(x, y)), rays[i].hit});
+    here = next;
   }
-  const auto by_bearing = [](const RayEnd& a, const RayEnd& b) { return a.bearing_rad < b.bearing_rad; };
-  std::sort(out.ends_lidar.begin(), out.ends_lidar.end(), by_bearing);
+  const Eigen::ArrayXf cosines = angles.cos(), sines = angles.sin();
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    RayEnd& e = out.ends_lidar[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    // Seen from the reference pose the end is a little nearer or farther and to the side: small angles.
+    const float ahead = cosines[k] * e.x_m + sines[k] * e.y_m, aside = cosines[k] * e.y_m - sines[k] * e.x_m;
+    const float bearing = angles[k] + aside / (e.range_m + ahead);
+    e.x_m += e.range_m * cosines[k];
+    e.y_m += e.range_m * sines[k];
+    e.range_m = std::sqrt(e.x_m * e.x_m + e.y_m * e.y_m);
+    e.bearing_rad = bearing - static_cast<float>(kTwoPi) * std::round(bearing / static_cast<float>(kTwoPi));
+  }
+  sort_by_bearing(out.ends_lidar);
   return out;
 }
 

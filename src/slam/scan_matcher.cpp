@@ -17,6 +17,7 @@ constexpr int kMostFineHalf = 7;     ///< a row of 2 * 7 + 1 shifts is one load
 constexpr std::size_t kMostSparse = 360;
 constexpr std::size_t kCandidates = 4;
 constexpr int kMostIterations = 12;
+constexpr int kStray = 3;  ///< cells that refinement may move: more means that it follows something else
 /// In a wide search a point in space that was never seen is worth this much, of 255 for one on a hit; in free space it
 /// is worth nothing. Otherwise the search would rather stay where the map is known than follow the robot into the new.
 constexpr std::uint8_t kUnknownWorth = 100;
@@ -52,7 +53,7 @@ MatchResult ScanMatcher::match(const ChunkedGrid& map, std::span<const MatchPoin
     const double half_yaw = config_.window_sigmas * prior.sigma_yaw_rad;
     const bool wide = half_xy > kMostFineHalf;
     const auto load = [&](std::uint8_t unknown) {
-      fine_.load(map, points_robot, expected, static_cast<float>(half_xy + 2 * kCoarse),
+      fine_.load(map, points_robot, expected, static_cast<float>(half_xy + (wide ? 2 * kCoarse : kStray)),
                  static_cast<float>(1.2 * half_yaw + 0.02), gain, unknown);
     };
     load(wide ? kUnknownWorth : std::uint8_t{0});
@@ -112,8 +113,8 @@ std::vector<ScanMatcher::Candidate> ScanMatcher::search(const HitWindow& window,
     const auto x0 = static_cast<float>(centre.x), y0 = static_cast<float>(centre.y);
     std::size_t inside = 0;
     for (const MatchPoint& p : sparse_) {
-      const int x = static_cast<int>(std::floor(x0 + c * p.x - s * p.y)) - range.half_cells;
-      const int y = static_cast<int>(std::floor(y0 + s * p.x + c * p.y));
+      const int x = static_cast<int>(x0 + c * p.x - s * p.y) - range.half_cells;  // the window has no negative cells
+      const int y = static_cast<int>(y0 + s * p.x + c * p.y);
       if (!window.contains(x, y - range.half_cells) || !window.contains(x + width - 1, y + range.half_cells)) continue;
       offsets_[inside++] = y * window.stride() + x;
     }
@@ -176,7 +177,7 @@ Pose2 ScanMatcher::refine(std::span<const MatchPoint> points, Pose2 pose, Eigen:
     information = kEvidence * fit.information + prior_info;
     const Eigen::Vector3d step = information.ldlt().solve(kEvidence * fit.gradient + prior_info * off);
     pose = {pose.x + step.x(), pose.y + step.y(), pose.yaw + step.z()};
-    const bool strayed = std::abs(pose.x - start.x) > 3 || std::abs(pose.y - start.y) > 3;
+    const bool strayed = std::abs(pose.x - start.x) > kStray || std::abs(pose.y - start.y) > kStray;
     if (strayed || !is_finite(pose)) return start;
     if (step.head<2>().norm() < 0.01 && std::abs(step.z()) * far_cells_ < 0.01) break;
   }

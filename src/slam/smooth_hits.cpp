@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam/smooth_hits.h"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -9,24 +10,39 @@ namespace {
 
 using Floats4 = float __attribute__((vector_size(16)));
 using Bytes4 = std::uint8_t __attribute__((vector_size(4)));
+using Lanes4 = std::int32_t __attribute__((vector_size(16)));
 
-/// Weights of the four cells around a position `t` (0 to 1) past the second one's centre.
-Floats4 spline(float t) {
+/// Weights of the four cells around a position, and their first and second derivatives.
+struct Spline {
+  Floats4 value, slope, curve;
+};
+
+/// The uniform cubic B-spline at a position `t` (0 to 1) past the second cell's centre.
+Spline spline_at(float t) {
   const float u = 1 - t;
   const float t2 = t * t, t3 = t2 * t;
-  return Floats4{u * u * u, 3 * t3 - 6 * t2 + 4, 3 * (t + t2 - t3) + 1, t3} / 6.0F;
+  return {Floats4{u * u * u, 3 * t3 - 6 * t2 + 4, 3 * (t + t2 - t3) + 1, t3} / 6.0F,
+          Floats4{-u * u, 3 * t2 - 4 * t, 1 + 2 * t - 3 * t2, t2} / 2.0F, Floats4{u, 3 * t - 2, 1 - 3 * t, t}};
 }
 
-/// Their derivatives.
-Floats4 spline_slope(float t) {
-  const float u = 1 - t;
-  return Floats4{-u * u, 3 * t * t - 4 * t, 1 + 2 * t - 3 * t * t, t * t} / 2.0F;
+constexpr int kSplineSteps = 256;
+
+/// The same from a table: a step is a 256th of a cell, far below what the map can tell.
+const Spline& spline_near(float t) {
+  static const auto table = [] {
+    std::array<Spline, kSplineSteps + 1> steps;
+    for (int i = 0; i <= kSplineSteps; ++i) steps[static_cast<std::size_t>(i)] = spline_at(static_cast<float>(i) / kSplineSteps);
+    return steps;
+  }();
+  return table[static_cast<std::size_t>(t * kSplineSteps + 0.5F)];
 }
 
-/// Their second derivatives.
-Floats4 spline_curve(float t) { return Floats4{1 - t, 3 * t - 2, 1 - 3 * t, t}; }
-
-float sum(Floats4 v) { return (v[0] + v[1]) + (v[2] + v[3]); }
+/// The sums of the lanes of four vectors, as one vector.
+Floats4 lane_sums(Floats4 a, Floats4 b, Floats4 c, Floats4 d) {
+  const Floats4 ab = __builtin_shuffle(a, b, Lanes4{0, 4, 1, 5}) + __builtin_shuffle(a, b, Lanes4{2, 6, 3, 7});
+  const Floats4 cd = __builtin_shuffle(c, d, Lanes4{0, 4, 1, 5}) + __builtin_shuffle(c, d, Lanes4{2, 6, 3, 7});
+  return __builtin_shuffle(ab, cd, Lanes4{0, 1, 4, 5}) + __builtin_shuffle(ab, cd, Lanes4{2, 3, 6, 7});
+}
 
 struct Patch {
   Floats4 rows[4];  ///< 0 to 255
@@ -35,11 +51,12 @@ struct Patch {
 
 /// The 4 x 4 cells around a position; false when the window does not hold them all, or when all are empty.
 bool load_patch(const HitWindow& window, float x, float y, Patch& patch) {
-  const float left = std::floor(x - 0.5F), low = std::floor(y - 0.5F);
-  const int column = static_cast<int>(left) - 1, row = static_cast<int>(low) - 1;
+  if (!(x >= 2.0F && y >= 2.0F && x < 1e6F && y < 1e6F)) return false;
+  const int centre_x = static_cast<int>(x - 0.5F), centre_y = static_cast<int>(y - 0.5F);
+  const int column = centre_x - 1, row = centre_y - 1;
   if (!window.contains(column, row) || !window.contains(column, row + 3)) return false;
-  patch.tx = x - 0.5F - left;
-  patch.ty = y - 0.5F - low;
+  patch.tx = x - 0.5F - static_cast<float>(centre_x);
+  patch.ty = y - 0.5F - static_cast<float>(centre_y);
   const std::uint8_t* at = window.data() + static_cast<std::ptrdiff_t>(row) * window.stride() + column;
   std::uint32_t any = 0;
   for (int i = 0; i < 4; ++i, at += window.stride()) {
@@ -60,13 +77,15 @@ struct Sums {
   float xx = 0, xy = 0, xt = 0, yy = 0, yt = 0, tt = 0, gx = 0, gy = 0, gt = 0, score = 0;
 
   void add(const Patch& patch, float rx, float ry, float weight) {
-    const Floats4 wx = spline(patch.tx), dx = spline_slope(patch.tx), cx = spline_curve(patch.tx);
-    const Floats4 value = blend(patch, spline(patch.ty)) / 255.0F;
-    const Floats4 rise = blend(patch, spline_slope(patch.ty)) / 255.0F;
-    const Floats4 bend = blend(patch, spline_curve(patch.ty)) / 255.0F;
-    const float f = sum(value * wx), fx = sum(value * dx), fy = sum(rise * wx);
+    const Spline& along_x = spline_near(patch.tx);
+    const Spline& along_y = spline_near(patch.ty);
+    const Floats4 value = blend(patch, along_y.value), rise = blend(patch, along_y.slope), bend = blend(patch, along_y.curve);
+    const Floats4 first = lane_sums(value * along_x.value, value * along_x.slope, rise * along_x.value, value * along_x.curve) / 255.0F;
+    const float f = first[0], fx = first[1], fy = first[2], fxx = first[3];
     if (f < 1e-3F) return;
-    const float a = fx * fx / f - sum(value * cx), b = fx * fy / f - sum(rise * dx), c = fy * fy / f - sum(bend * wx);
+    const Floats4 rest = lane_sums(rise * along_x.slope, bend * along_x.value, Floats4{}, Floats4{}) / 255.0F;
+    const float fxy = rest[0], fyy = rest[1];
+    const float a = fx * fx / f - fxx, b = fx * fy / f - fxy, c = fy * fy / f - fyy;
     // Only what curves down counts: the larger eigenvalue is kept when the smaller is negative.
     const float mean = 0.5F * (a + c), spread = std::sqrt(0.25F * (a - c) * (a - c) + b * b);
     if (mean + spread <= 0) {
@@ -92,7 +111,9 @@ struct Sums {
 
 float smooth_hit(const HitWindow& window, float x, float y) {
   Patch patch;
-  return load_patch(window, x, y, patch) ? sum(blend(patch, spline(patch.ty)) * spline(patch.tx)) / 255.0F : 0.0F;
+  if (!load_patch(window, x, y, patch)) return 0.0F;
+  const Floats4 value = blend(patch, spline_near(patch.ty).value) * spline_near(patch.tx).value;
+  return (value[0] + value[1] + value[2] + value[3]) / 255.0F;
 }
 
 HitFit fit_to_hits(const HitWindow& window, std::span<const MatchPoint> points, const Pose2& window_T_robot) {
