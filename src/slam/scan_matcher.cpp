@@ -16,7 +16,9 @@ constexpr int kCoarse = 4;           ///< side of a cell of the wide search, in 
 constexpr int kMostFineHalf = 7;     ///< a row of 2 * 7 + 1 shifts is one load
 constexpr std::size_t kMostSparse = 360;
 constexpr std::size_t kCandidates = 4;
-constexpr int kMostIterations = 12;
+constexpr int kMostIterations = 10;
+constexpr int kLastSteps = 2;      ///< of these, with all points: all but the first
+constexpr double kSettled = 0.05;  ///< cells: a step this short is followed by the last ones
 constexpr int kStray = 3;  ///< cells that refinement may move: more means that it follows something else
 /// In a wide search a point in space that was never seen is worth this much, of 255 for one on a hit; in free space it
 /// is worth nothing. Otherwise the search would rather stay where the map is known than follow the robot into the new.
@@ -82,7 +84,7 @@ void ScanMatcher::choose_sparse(std::span<const MatchPoint> points) {
     passed += p.weight;
     if (passed < step) continue;
     passed -= step;
-    sparse_.push_back(p);
+    sparse_.push_back({p.x, p.y, step});
   }
   if (sparse_.empty()) sparse_.assign(points.begin(), points.end());
   weight_of_sparse_ = total / static_cast<double>(sparse_.size());
@@ -165,21 +167,25 @@ ScanMatcher::Candidate ScanMatcher::search_all(double half_xy_cells, double half
   return best;
 }
 
-/// Newton steps up the sum of weight * smooth hit, with the prior, all in cells. Hits that are not on the map, a
-/// person's say, lie where the map is flat: they push nowhere. `information` becomes that of the result.
-Pose2 ScanMatcher::refine(std::span<const MatchPoint> points, Pose2 pose, Eigen::Matrix3d& information) const {
-  const Pose2 start = pose;
+/// Newton steps up the sum of weight * smooth hit, with the prior, all in cells: with some points until it settles, then
+/// with all. Hits that are not on the map, a person's say, lie where the map is flat: they push nowhere.
+/// `information` is the prior's, and becomes that of the result.
+Pose2 ScanMatcher::refine(std::span<const MatchPoint> points, const Pose2& start, Eigen::Matrix3d& information) const {
   const Pose2& prior = expected_.window_T_robot;
   const Eigen::Matrix3d prior_info = information;
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+  Pose2 pose = start;
+  int last_steps = kLastSteps;
+  for (int iteration = 0; iteration < kMostIterations && last_steps > 0; ++iteration) {
+    const bool settled = last_steps < kLastSteps;
     const Eigen::Vector3d off(prior.x - pose.x, prior.y - pose.y, turn(pose.yaw, prior.yaw));
-    const HitFit fit = fit_to_hits(fine_, points, pose);
+    const HitFit fit = fit_to_hits(fine_, settled ? points : std::span<const MatchPoint>(sparse_), pose);
     information = kEvidence * fit.information + prior_info;
     const Eigen::Vector3d step = information.ldlt().solve(kEvidence * fit.gradient + prior_info * off);
     pose = {pose.x + step.x(), pose.y + step.y(), pose.yaw + step.z()};
     const bool strayed = std::abs(pose.x - start.x) > kStray || std::abs(pose.y - start.y) > kStray;
     if (strayed || !is_finite(pose)) return start;
-    if (step.head<2>().norm() < 0.01 && std::abs(step.z()) * far_cells_ < 0.01) break;
+    const double moved = std::max(step.head<2>().norm(), std::abs(step.z()) * far_cells_);
+    if (settled || moved < kSettled || iteration + kLastSteps >= kMostIterations) --last_steps;
   }
   return pose;
 }

@@ -69,7 +69,7 @@ class ScanMatcher {
                                 double cell_factor, std::size_t candidates);
   Candidate search_all(double half_xy_cells, double half_yaw_rad);
   void choose_sparse(std::span<const MatchPoint> points);
-  Pose2 refine(std::span<const MatchPoint> points, Pose2 pose, Eigen::Matrix3d& information) const;
+  Pose2 refine(std::span<const MatchPoint> points, const Pose2& start, Eigen::Matrix3d& information) const;
   void judge(const ChunkedGrid& map, const Pose2& map_T_robot_cells, MatchResult& result) const;
 
   ScanMatcherConfig config_;

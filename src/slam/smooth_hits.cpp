@@ -27,18 +27,18 @@ Spline spline_at(float t) {
 
 constexpr int kSplineSteps = 256;
 
-/// The same from a table: a step is a 256th of a cell, far below what the map can tell.
-const Spline& spline_near(float t) {
-  static const auto table = [] {
-    std::array<Spline, kSplineSteps + 1> steps;
-    for (int i = 0; i <= kSplineSteps; ++i) steps[static_cast<std::size_t>(i)] = spline_at(static_cast<float>(i) / kSplineSteps);
-    return steps;
-  }();
-  return table[static_cast<std::size_t>(t * kSplineSteps + 0.5F)];
+std::array<Spline, kSplineSteps + 1> make_splines() {
+  std::array<Spline, kSplineSteps + 1> table;
+  for (std::size_t i = 0; i < table.size(); ++i) table[i] = spline_at(static_cast<float>(i) / kSplineSteps);
+  return table;
 }
+const std::array<Spline, kSplineSteps + 1> kSplines = make_splines();
+
+/// The same from a table: a step is a 256th of a cell, far below what the map can tell.
+inline const Spline& spline_near(float t) { return kSplines[static_cast<std::size_t>(static_cast<int>(t * kSplineSteps + 0.5F))]; }
 
 /// The sums of the lanes of four vectors, as one vector.
-Floats4 lane_sums(Floats4 a, Floats4 b, Floats4 c, Floats4 d) {
+inline Floats4 lane_sums(Floats4 a, Floats4 b, Floats4 c, Floats4 d) {
   const Floats4 ab = __builtin_shuffle(a, b, Lanes4{0, 4, 1, 5}) + __builtin_shuffle(a, b, Lanes4{2, 6, 3, 7});
   const Floats4 cd = __builtin_shuffle(c, d, Lanes4{0, 4, 1, 5}) + __builtin_shuffle(c, d, Lanes4{2, 6, 3, 7});
   return __builtin_shuffle(ab, cd, Lanes4{0, 1, 4, 5}) + __builtin_shuffle(ab, cd, Lanes4{2, 3, 6, 7});
@@ -50,7 +50,7 @@ struct Patch {
 };
 
 /// The 4 x 4 cells around a position; false when the window does not hold them all, or when all are empty.
-bool load_patch(const HitWindow& window, float x, float y, Patch& patch) {
+inline bool load_patch(const HitWindow& window, float x, float y, Patch& patch) {
   if (!(x >= 2.0F && y >= 2.0F && x < 1e6F && y < 1e6F)) return false;
   const int centre_x = static_cast<int>(x - 0.5F), centre_y = static_cast<int>(y - 0.5F);
   const int column = centre_x - 1, row = centre_y - 1;
@@ -70,7 +70,7 @@ bool load_patch(const HitWindow& window, float x, float y, Patch& patch) {
   return any != 0;
 }
 
-Floats4 blend(const Patch& p, Floats4 w) { return p.rows[0] * w[0] + p.rows[1] * w[1] + p.rows[2] * w[2] + p.rows[3] * w[3]; }
+inline Floats4 blend(const Patch& p, Floats4 w) { return p.rows[0] * w[0] + p.rows[1] * w[1] + p.rows[2] * w[2] + p.rows[3] * w[3]; }
 
 /// Sums over the points, in floats: the upper triangle of the information, the gradient, the score.
 struct Sums {
