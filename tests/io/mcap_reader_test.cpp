@@ -41,13 +41,13 @@ std::string scan_at(std::int64_t stamp_ns, const std::string& frame = "laser") {
   return laser_scan(fields);
 }
 
-/// Ten times a scan, two IMU samples and odometry, 10 ms apart.
-McapBuilder small_file(const McapBuilder::Options& options) {
+/// Ten times or so a scan, two IMU samples and odometry, 10 ms apart.
+McapBuilder small_file(const McapBuilder::Options& options, int rounds = 10) {
   McapBuilder file(options);
   const auto scans = file.add_channel("/scan", "sensor_msgs/msg/LaserScan");
   const auto imus = file.add_channel("/imu", "sensor_msgs/msg/Imu");
   const auto wheels = file.add_channel("/odom", "nav_msgs/msg/Odometry");
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < rounds; ++i) {
     const std::int64_t t = kStart + i * 10 * kMs;
     file.add_message(scans, static_cast<std::uint64_t>(t), scan_at(t));
     file.add_message(imus, static_cast<std::uint64_t>(t + kMs), imu(t + kMs, {}));
@@ -254,7 +254,7 @@ TEST(McapMountTest, ImuTurnedOnTheRobot) {
 
 TEST(McapDamageTest, CutAnywhereGivesWhatCameBefore) {
   for (const auto& layout : all_layouts()) {
-    McapBuilder builder = small_file(layout);
+    McapBuilder builder = small_file(layout, 3);
     const std::string whole = builder.finish();
     std::size_t last = 0;
     for (std::size_t size = 8; size <= whole.size(); ++size) {
@@ -264,7 +264,7 @@ TEST(McapDamageTest, CutAnywhereGivesWhatCameBefore) {
       EXPECT_EQ(all.damage.has_value(), size < builder.data_end() + kDataEndSize) << size;
       last = all.records.size();
     }
-    EXPECT_EQ(last, 40U);
+    EXPECT_EQ(last, 12U);
   }
 }
 

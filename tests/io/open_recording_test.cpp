@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "io/mcap_stream.h"
 #include "tests/io/mcap_builder.h"
 #include "tests/io/read_all.h"
 
@@ -71,6 +72,20 @@ TEST_F(OpenRecordingTest, WhatIsNoRecording) {
   EXPECT_THAT(error_of(file("long", std::string(1'000'000, 'x'))), HasSubstr("not a recording"));
 }
 
+TEST_F(OpenRecordingTest, AMessageTooLargeForMemoryIsPassedOver) {
+  using test::McapBuilder;
+  const std::uint64_t size = McapStream::kMaxSize + 1;
+  const std::string path = file("large", McapBuilder::magic() + '\x05' + test::le(size));
+  std::filesystem::resize_file(path, McapBuilder::magic().size() + 9 + size);  // a hole, which takes no disk
+  std::ofstream(path, std::ios::binary | std::ios::app) << McapBuilder::record(0x0F, std::string(4, '\0'));
+  const auto recording = open_recording(path);
+  EXPECT_LT(recording->progress(), 0.1);
+  const test::Contents all = test::read_all(*recording);
+  EXPECT_EQ(all.counters["mcap.too_large"], 1U);
+  EXPECT_EQ(all.damage, std::nullopt);
+  EXPECT_EQ(recording->progress(), 1.0);
+}
+
 TEST_F(OpenRecordingTest, WhatMayNotBeRead) {
   const std::string path = file("secret", "FLASER");
   std::filesystem::permissions(path, std::filesystem::perms::none);
@@ -87,7 +102,10 @@ class FailingSource final : public ByteSource {
     if (size > left) failed_ = true;
     return inner_.read(to, std::min(size, left));
   }
-  void seek(std::uint64_t offset) override { inner_.seek(offset); }
+  void seek(std::uint64_t offset) override {
+    inner_.seek(offset);
+    failed_ = false;
+  }
   std::uint64_t position() const override { return inner_.position(); }
   std::uint64_t size() const override { return inner_.size(); }
   std::string fault() const override { return failed_ ? "Input/output error" : ""; }
@@ -99,25 +117,31 @@ class FailingSource final : public ByteSource {
   bool failed_ = false;
 };
 
-TEST(FailingMediumTest, WhatCameBeforeIsDelivered) {
+TEST(FailingMediumTest, CarmenLogGivesWhatCameBefore) {
   std::string text;
   for (int i = 0; i < 10'000; ++i) text += "FLASER 1 2.0 0 0 0 0 0 0 1 h 1\n";
   const auto log = open_recording(std::make_unique<FailingSource>(text, text.size() / 2));
   const test::Contents carmen = test::read_all(*log);
   EXPECT_GT(carmen.scans.size(), 4000U);
   EXPECT_THAT(carmen.damage.value_or(""), HasSubstr("Input/output error"));
+  EXPECT_THROW(open_recording(std::make_unique<FailingSource>(text, 0)), InputError);
+}
 
+TEST(FailingMediumTest, McapGivesWhatCameBefore) {
   for (const auto& compression : {std::optional<std::string>(""), std::optional<std::string>()}) {
     test::McapBuilder file({compression, 10, true, true});
     const auto scans = file.add_channel("/scan", "sensor_msgs/msg/LaserScan");
     for (int i = 0; i < 5000; ++i) file.add_message(scans, 1, test::laser_scan({}));
     const std::string bytes = file.finish();
-    const auto mcap = open_recording(std::make_unique<FailingSource>(bytes, bytes.size() / 2));
-    const test::Contents all = test::read_all(*mcap);
-    EXPECT_GT(all.scans.size(), 2000U);
-    EXPECT_THAT(all.damage.value_or(""), HasSubstr("Input/output error"));
+    for (const std::size_t good :
+         {bytes.size() / 50, bytes.size() / 2}) {  // while looking ahead, and after it
+      const auto mcap = open_recording(std::make_unique<FailingSource>(bytes, good));
+      const test::Contents all = test::read_all(*mcap);
+      const double share = static_cast<double>(good) / static_cast<double>(bytes.size());
+      EXPECT_NEAR(static_cast<double>(all.scans.size()), 5000.0 * share, 20.0);
+      EXPECT_THAT(all.damage.value_or(""), HasSubstr("Input/output error"));
+    }
   }
-  EXPECT_THROW(open_recording(std::make_unique<FailingSource>(text, 0)), InputError);
 }
 
 }  // namespace
