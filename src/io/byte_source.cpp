@@ -46,6 +46,8 @@ std::size_t FileSource::read(void* to, std::size_t size) {
 
 void FileSource::seek(std::uint64_t offset) {
   position_ = std::min(offset, size_);
+  std::clearerr(file_.get());
+  fault_.clear();
   if (fseeko(file_.get(), static_cast<off_t>(position_), SEEK_SET) != 0) fault_ = error_text(errno);
 }
 

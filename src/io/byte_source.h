@@ -19,13 +19,14 @@ class ByteSource {
   /// Reads up to `size` bytes; fewer only where the bytes end or the medium fails (then fault() says so).
   virtual std::size_t read(void* to, std::size_t size) = 0;
 
-  /// Goes to a place `offset` bytes from the front, at most to the end.
+  /// Goes to a place `offset` bytes from the front, at most to the end. A fault is forgotten: there it may
+  /// read well.
   virtual void seek(std::uint64_t offset) = 0;
 
   virtual std::uint64_t position() const = 0;
   virtual std::uint64_t size() const = 0;
 
-  /// Why the medium failed; empty as long as it has not.
+  /// Why the medium failed; empty as long as it has not since the last seek().
   virtual std::string fault() const { return {}; }
 
   /// What a person knows it by, say the path; begins every message about it.

@@ -10,12 +10,33 @@ namespace dynslam {
 namespace {
 
 constexpr std::size_t kHeadSize = 9;       // opcode, length
-constexpr std::size_t kMaxChunkHead = 64;  // 8 + 8 + 8 + 4 + 4 + compression + 8
-constexpr std::size_t kChunkHeadWithoutName = 40;
-const std::string kEndsInChunk = "the file ends inside a chunk";
+constexpr std::size_t kMaxChunkHead = 64;  // a name of 24 characters; the known ones have four at most
 
 bool is_wanted(McapOpcode opcode) {
   return opcode == McapOpcode::kSchema || opcode == McapOpcode::kChannel || opcode == McapOpcode::kMessage;
+}
+
+struct ChunkHead {
+  std::uint64_t size = 0;  ///< of the records, unpacked
+  std::uint32_t crc = 0;   ///< of the same; 0: unknown
+  std::string compression;
+  std::uint64_t packed_size = 0;
+  std::uint64_t own_size = 0;  ///< how many bytes come before the packed records
+};
+
+// start time, end time, unpacked size (64 bits each), checksum (32), name of the compression (text), packed
+// size (64)
+std::optional<ChunkHead> parse_chunk_head(Bytes bytes) {
+  ByteCursor fields(bytes);
+  ChunkHead head;
+  fields.take(16);
+  head.size = fields.number<std::uint64_t>();
+  head.crc = fields.number<std::uint32_t>();
+  head.compression = fields.text();
+  head.packed_size = fields.number<std::uint64_t>();
+  head.own_size = fields.position();
+  if (!fields.ok()) return std::nullopt;
+  return head;
 }
 
 std::uint32_t crc_of(Bytes bytes) {
@@ -69,7 +90,7 @@ std::optional<McapRecord> McapStream::next_in_chunk() {
 /// other record that the file has not all of is the end.
 std::optional<McapStream::Head> McapStream::read_head() {
   const std::uint64_t at = source_.position();
-  std::uint8_t raw[kHeadSize];
+  std::uint8_t raw[kHeadSize] = {};
   const std::size_t got = source_.read(raw, kHeadSize);
   const Head head{static_cast<McapOpcode>(raw[0]), at,
                   got == kHeadSize ? load<std::uint64_t>(raw + 1, std::endian::little) : 0};
@@ -105,45 +126,40 @@ std::optional<McapRecord> McapStream::read_record(const Head& head) {
   return McapRecord{head.opcode, record_};
 }
 
-// Chunk: start time, end time, unpacked size (64 bits each), checksum (32), name of the compression (text),
-// size of what follows (64), the packed records.
 void McapStream::open_chunk(const Head& head) {
   const std::uint64_t begin = source_.position();
+  const bool is_cut = head.length > source_.remaining();
   std::uint8_t raw[kMaxChunkHead];
-  const std::size_t got =
-      source_.read(raw, static_cast<std::size_t>(std::min<std::uint64_t>(kMaxChunkHead, head.length)));
-  ByteCursor fields(Bytes(raw, got));
-  fields.take(16);
-  const auto size = fields.number<std::uint64_t>();
-  const auto crc = fields.number<std::uint32_t>();
-  const std::string compression(fields.text());
-  const auto packed_size = fields.number<std::uint64_t>();
-  const std::uint64_t head_size = kChunkHeadWithoutName + compression.size();
+  const std::uint64_t want = std::min<std::uint64_t>(kMaxChunkHead, head.length);
+  const std::size_t got = source_.read(raw, static_cast<std::size_t>(want));
+  const std::optional<ChunkHead> chunk = parse_chunk_head(Bytes(raw, got));
   chunk_at_ = head.at;
 
-  const bool is_cut = head.length > source_.size() - begin;
-  if (!fields.ok() && is_cut) {
-    fail(head.at, kEndsInChunk);
-  } else if (!fields.ok() || head_size > head.length || packed_size > head.length - head_size) {
+  if (!chunk && got < want) {
+    end_in_chunk(head);
+  } else if (!chunk || chunk->own_size > head.length || chunk->packed_size > head.length - chunk->own_size) {
     lose_chunk(head, "the chunk's header makes no sense");
-  } else if (size > kMaxSize) {
+  } else if (chunk->size > kMaxSize) {
     lose_chunk(head, "the chunk is larger than 256 MiB");
   } else {
-    source_.seek(begin + head_size);
-    const UnpackResult result =
-        unpacker_.unpack(source_, packed_size, compression, static_cast<std::size_t>(size));
-    if (is_chunk_sound(head, result, crc)) chunk_.emplace(unpacker_.bytes());
+    source_.seek(begin + chunk->own_size);
+    const auto size = static_cast<std::size_t>(chunk->size);
+    const UnpackResult result = unpacker_.unpack(source_, chunk->packed_size, chunk->compression, size);
+    if (is_chunk_sound(head, result, chunk->crc)) chunk_.emplace(unpacker_.bytes());
   }
-  if (is_cut) fail(head.at, kEndsInChunk);
-  ended_ = ended_ || is_cut;
+  if (is_cut) end_in_chunk(head);
   if (!ended_) source_.seek(begin + head.length);
+}
+
+void McapStream::end_in_chunk(const Head& head) {
+  fail(head.at, source_.fault().empty() ? "the file ends inside a chunk" : source_.fault());
+  ended_ = true;
 }
 
 bool McapStream::is_chunk_sound(const Head& head, UnpackResult result, std::uint32_t crc) {
   switch (result) {
     case UnpackResult::kCutOff:
-      fail(head.at, source_.fault().empty() ? kEndsInChunk : source_.fault());
-      ended_ = true;
+      end_in_chunk(head);
       return true;
     case UnpackResult::kDamaged:
       lose_chunk(head, "the chunk does not unpack");

@@ -51,13 +51,14 @@ class McapStream {
   struct Head {
     McapOpcode opcode;
     std::uint64_t at;      ///< byte offset of the record
-    std::uint64_t length;  ///< of its content, all of which the file has
+    std::uint64_t length;  ///< of its content; the file has all of it, unless it is a chunk
   };
   std::optional<McapRecord> next_in_chunk();
   std::optional<Head> read_head();
   std::optional<McapRecord> read_record(const Head& head);
   void open_chunk(const Head& head);
   bool is_chunk_sound(const Head& head, UnpackResult result, std::uint32_t crc);
+  void end_in_chunk(const Head& head);
   void lose_chunk(const Head& head, const std::string& why);
   void fail(std::uint64_t at, const std::string& why);
 

@@ -15,9 +15,9 @@ namespace {
 
 TEST(CellRules, AreUnknownUntilSeenAndTurnOverInAboutTenLooks) {
   EXPECT_EQ(cell_state(0, 0), CellState::kUnknown);
-  EXPECT_EQ(cell_state(kGain, 0), CellState::kUnknown) << "one hit may be noise";
-  EXPECT_EQ(cell_state(2 * kGain, 0), CellState::kOccupied);
-  EXPECT_EQ(cell_state(0, kGain), CellState::kFree);
+  EXPECT_EQ(cell_state(CellRule{}.gain, 0), CellState::kUnknown) << "one hit may be noise";
+  EXPECT_EQ(cell_state(2 * CellRule{}.gain, 0), CellState::kOccupied);
+  EXPECT_EQ(cell_state(0, CellRule{}.gain), CellState::kFree);
   ChunkedGrid grid(0.02);
   for (int i = 0; i < 20; ++i) grid.add_hit({0, 0});
   EXPECT_EQ(grid.hit({0, 0}), 255);
@@ -33,8 +33,8 @@ TEST(CellRules, AreUnknownUntilSeenAndTurnOverInAboutTenLooks) {
 TEST(CellRules, NeverRunOverOrUnder) {
   for (int v = 0; v < 256; ++v) {
     const auto b = static_cast<std::uint8_t>(v);
-    EXPECT_EQ(raised(b, kGain), std::min(255, v + kGain));
-    EXPECT_EQ(lowered(b, kLoss), std::max(0, v - kLoss));
+    EXPECT_EQ(raised(b, CellRule{}.gain), std::min(255, v + CellRule{}.gain));
+    EXPECT_EQ(lowered(b, CellRule{}.loss), std::max(0, v - CellRule{}.loss));
   }
 }
 
@@ -45,7 +45,7 @@ TEST(ChunkedGrid, IsUnknownWhereNothingWasSeenAndAllotsOnlyWhatWasSeen) {
   grid.add_hit({-1, -1});
   grid.add_hit({12345678, -12345678});
   EXPECT_EQ(grid.chunk_count(), 2U);
-  EXPECT_EQ(grid.hit({-1, -1}), kGain);
+  EXPECT_EQ(grid.hit({-1, -1}), CellRule{}.gain);
   EXPECT_EQ(grid.hit({0, 0}), 0);
 }
 
@@ -163,7 +163,7 @@ TEST(ChunkedGrid, StopsAtTheCapAndCountsWhatItRefuses) {
   EXPECT_EQ(grid.chunk_count(), 3U);
   EXPECT_EQ(grid.cells_refused(), 2U + 1U + 2U);
   grid.add_hit({0, 0});
-  EXPECT_EQ(grid.hit({0, 0}), 2 * kGain) << "what is there still learns";
+  EXPECT_EQ(grid.hit({0, 0}), 2 * CellRule{}.gain) << "what is there still learns";
 }
 
 TEST(ChunkedGrid, ReadersSeeWholeChunksWhileTheWriterWrites) {

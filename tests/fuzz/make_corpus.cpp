@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include <fstream>
+#include <iostream>
+#include <string>
+
+#include "tests/io/mcap_builder.h"
+
+namespace dynslam::test {
+namespace {
+
+void write(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+std::string mcap(const McapBuilder::Options& options) {
+  McapBuilder file(options);
+  const auto scan = file.add_channel("/scan", "sensor_msgs/msg/LaserScan");
+  const auto heading = file.add_channel("/imu", "sensor_msgs/msg/Imu");
+  const auto wheels = file.add_channel("/odom", "nav_msgs/msg/Odometry");
+  const auto tf = file.add_channel("/tf_static", "tf2_msgs/msg/TFMessage");
+  file.add_message(tf, 1, transforms({{"base_link", "laser", 0.1, 0.0, 0.2, {1.0, 0.0, 0.0, 0.0}}}));
+  file.add_message(scan, 1, laser_scan({}));
+  file.add_message(heading, 1, imu(1, {}));
+  file.add_message(wheels, 1, odometry(1, 2.0, 3.0, {}));
+  return file.finish().substr(McapBuilder::magic().size());
+}
+
+void write_all(const std::string& folder) {
+  write(folder + "/mcap/flat", mcap({std::nullopt, 2, true, false}));
+  write(folder + "/mcap/plain", mcap({"", 2, false, false}));
+  write(folder + "/mcap/zstd", mcap({"zstd", 2, false, true}));
+  write(folder + "/mcap/lz4", mcap({"lz4", 2, true, false}));
+  const std::string flaser = "FLASER 3 1.25 2.5 81.91 1 2 3 4 5 0.5 12.25 host 0.1\n";
+  write(folder + "/carmen/flaser",
+        "PARAM robot_front_laser_max 50 0 h 0\nPARAM laser_front_laser_fov 180 0 h 0\n" + flaser +
+            "ODOM 1 2 3 0 0 0 4 h 1\n" + flaser);
+  write(folder + "/carmen/robotlaser",
+        "ROBOTLASER1 0 -0.5 1.0 0.5 30 0.01 0 3 2 3 nan 1 77 1 3 1.5 1 2 1.5 0.1 0.2 0.3 0.4 0.5 99.5 host "
+        "1.0\n");
+}
+
+}  // namespace
+}  // namespace dynslam::test
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: make_corpus FOLDER\n";
+    return 2;
+  }
+  dynslam::test::write_all(argv[1]);
+}
