@@ -29,6 +29,18 @@ void mark_never_seen(const Chunk& chunk, int row, std::uint8_t* to, std::uint8_t
   }
 }
 
+/// The maxima of the blocks of kPool x kPool bytes that one row of a chunk of the pooled window stands for.
+void pool_row(const std::uint8_t* from, std::ptrdiff_t stride, std::uint8_t* to) {
+  std::uint8_t best[kChunkSide] = {};
+  for (int r = 0; r < HitWindow::kPool; ++r, from += stride) {
+    for (int i = 0; i < kChunkSide; ++i) best[i] = std::max(best[i], from[i]);
+  }
+  for (int step = 1; step < HitWindow::kPool; step *= 2) {
+    for (int i = 0; i + step < kChunkSide; ++i) best[i] = std::max(best[i], best[i + step]);
+  }
+  for (int i = 0; i < kChunkSide / HitWindow::kPool; ++i) to[i] = best[i * HitWindow::kPool];
+}
+
 }  // namespace
 
 /// Room for chunks of `side` cells, and nothing wanted yet.
@@ -102,21 +114,16 @@ void HitWindow::copy_band(const Chunk* from, int band, int chunk, unsigned gain_
   }
 }
 
-void HitWindow::pool(const HitWindow& fine, int factor) {
-  const int side = kChunkSide / factor;
-  shape(fine.chunks_wide_, fine.height_ / kChunkSide, side);
+void HitWindow::pool(const HitWindow& fine) {
+  constexpr int kSide = kChunkSide / kPool;
+  shape(fine.chunks_wide_, fine.height_ / kChunkSide, kSide);
   first_ = {0, 0};
   for (int y = 0; y < height_; ++y) {
-    const int band = y * factor / kBand;
+    const int band = y * kPool / kBand;
     for (int k = 0; k < chunks_wide_; ++k) {
       if (!fine.wanted_[static_cast<std::size_t>(band * chunks_wide_ + k)]) continue;
-      std::uint8_t best[kChunkSide] = {};
-      const std::uint8_t* from = fine.data() + static_cast<std::ptrdiff_t>(y * factor) * fine.stride() + k * kChunkSide;
-      for (int r = 0; r < factor; ++r, from += fine.stride()) {
-        for (int i = 0; i < kChunkSide; ++i) best[i] = std::max(best[i], from[i]);
-      }
-      std::uint8_t* to = data_.get() + static_cast<std::ptrdiff_t>(y) * stride_ + k * side;
-      for (int i = 0; i < side; ++i) to[i] = *std::max_element(best + i * factor, best + (i + 1) * factor);
+      pool_row(fine.data() + static_cast<std::ptrdiff_t>(y * kPool) * fine.stride() + k * kChunkSide, fine.stride(),
+               data_.get() + static_cast<std::ptrdiff_t>(y) * stride_ + k * kSide);
     }
   }
 }

@@ -31,8 +31,10 @@ class HitWindow {
   /// never seen become `unknown` instead of 0.
   void load(const ChunkedGrid& grid, std::span<const MatchPoint> points, const Pose2& grid_T_robot, float reach,
             float turn_rad, float gain = 1, std::uint8_t unknown = 0);
-  /// The maximum of each block of `factor` by `factor` cells of `fine`, where `fine` holds something.
-  void pool(const HitWindow& fine, int factor);
+  /// Side of the blocks of cells that pool() puts into one.
+  static constexpr int kPool = 4;
+  /// The maximum of each block of kPool by kPool cells of `fine`, where `fine` holds something.
+  void pool(const HitWindow& fine);
 
   /// The cell of the grid that is the window's cell (0, 0).
   CellIndex first() const { return first_; }

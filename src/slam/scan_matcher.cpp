@@ -12,7 +12,7 @@
 namespace dynslam {
 namespace {
 
-constexpr int kCoarse = 4;           ///< side of a cell of the wide search, in cells
+constexpr int kCoarse = HitWindow::kPool;  ///< side of a cell of the wide search, in cells
 constexpr int kMostFineHalf = 7;     ///< a row of 2 * 7 + 1 shifts is one load
 constexpr std::size_t kMostSparse = 360;
 constexpr std::size_t kCandidates = 4;
@@ -154,7 +154,7 @@ ScanMatcher::Candidate ScanMatcher::search_all(double half_xy_cells, double half
                             fine_yaw};
     return search(fine_, centre, range, 1, 1).front();
   }
-  coarse_.pool(fine_, kCoarse);
+  coarse_.pool(fine_);
   const double coarse_yaw = kCoarse * fine_yaw;
   const SearchRange wide{static_cast<int>(std::ceil(half_xy_cells / kCoarse)),
                          static_cast<int>(std::ceil(half_yaw_rad / coarse_yaw)), coarse_yaw};

@@ -10,7 +10,6 @@ namespace {
 
 using Floats4 = float __attribute__((vector_size(16)));
 using Bytes4 = std::uint8_t __attribute__((vector_size(4)));
-using Lanes4 = std::int32_t __attribute__((vector_size(16)));
 
 /// Weights of the four cells around a position, and their first and second derivatives.
 struct Spline {
@@ -39,9 +38,9 @@ inline const Spline& spline_near(float t) { return kSplines[static_cast<std::siz
 
 /// The sums of the lanes of four vectors, as one vector.
 inline Floats4 lane_sums(Floats4 a, Floats4 b, Floats4 c, Floats4 d) {
-  const Floats4 ab = __builtin_shuffle(a, b, Lanes4{0, 4, 1, 5}) + __builtin_shuffle(a, b, Lanes4{2, 6, 3, 7});
-  const Floats4 cd = __builtin_shuffle(c, d, Lanes4{0, 4, 1, 5}) + __builtin_shuffle(c, d, Lanes4{2, 6, 3, 7});
-  return __builtin_shuffle(ab, cd, Lanes4{0, 1, 4, 5}) + __builtin_shuffle(ab, cd, Lanes4{2, 3, 6, 7});
+  const Floats4 ab = __builtin_shufflevector(a, b, 0, 4, 1, 5) + __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Floats4 cd = __builtin_shufflevector(c, d, 0, 4, 1, 5) + __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  return __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
 }
 
 struct Patch {
