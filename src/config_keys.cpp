@@ -18,8 +18,8 @@ namespace {
 
 using Keys = std::vector<ConfigKey>;
 
-/// A TOML basic string, always one line.
-std::string basic_string(std::string_view text) {
+// A TOML basic string, always one line.
+std::string toml_text(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -41,9 +41,6 @@ std::string toml_text(bool value) {
 std::string toml_text(int value) {
   return std::to_string(value);
 }
-std::string toml_text(const std::string& value) {
-  return basic_string(value);
-}
 std::string toml_text(double value) {
   const std::string text = shortest_text(value);
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;  // "12" would be an integer
@@ -53,7 +50,8 @@ std::string toml_text(double value) {
 std::string shown(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (node.is_array()) return "an array";
-  if (const auto* text = node.as_string()) return basic_string(text->get().substr(0, 40));
+  if (const auto* text = node.as_string()) return toml_text(text->get().substr(0, 40));
+  if (const auto* number = node.as_floating_point()) return toml_text(number->get());
   std::ostringstream out;
   out << toml::node_view<const toml::node>(node);
   return out.str();
@@ -125,7 +123,7 @@ std::string unknown_key(const std::string& name, const Keys& keys) {
   return "unknown key; the nearest known key is " + nearest_name(name, names);
 }
 
-std::string unknown_table(std::string_view name, const Keys& keys) {
+std::string unknown_table(const std::string& name, const Keys& keys) {
   std::vector<std::string> names;
   for (const ConfigKey& key : keys) names.emplace_back(key.section);
   return "unknown table; the nearest known table is [" + nearest_name(name, names) + "]";
@@ -140,7 +138,7 @@ class TomlReader {
     for (const auto& [key, node] : file) {
       const std::string name(key.str());
       const bool is_section =
-          std::any_of(keys_.begin(), keys_.end(), [&](const ConfigKey& k) { return k.section == name; });
+          std::any_of(keys_.begin(), keys_.end(), [&](const auto& k) { return k.section == name; });
       if (is_section && node.is_table()) {
         read_section(name, *node.as_table());
       } else if (is_section) {
@@ -186,11 +184,10 @@ class TomlReader {
 
 /// The text of a value to the key; false when it is not TOML, more than one value, or not what the key takes.
 bool read_setting_value(const std::string& text, const ConfigKey& key) {
-  if (auto* const* string = std::get_if<std::string*>(&key.value); string != nullptr) {
-    if (!text.starts_with('"') && !text.starts_with('\'')) {
-      **string = text;
-      return true;
-    }
+  auto* const* string = std::get_if<std::string*>(&key.value);
+  if (string != nullptr && !text.starts_with('"') && !text.starts_with('\'')) {
+    **string = text;
+    return true;
   }
   try {
     const toml::table parsed = toml::parse("value = " + text);
@@ -204,9 +201,8 @@ bool read_setting_value(const std::string& text, const ConfigKey& key) {
 
 std::vector<std::string> read_toml(std::string_view text, const std::string& place, const Keys& keys) {
   try {
-    const toml::table file = toml::parse(text);
     TomlReader reader(place, keys);
-    reader.read(file);
+    reader.read(toml::parse(text));
     return reader.problems();
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;

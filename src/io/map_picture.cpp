@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
+#include <iterator>
+#include <span>
+#include <utility>
 
 #include "base/number_text.h"
 #include "io/picture_band.h"
+#include "io/picture_layout.h"
 #include "io/png_writer.h"
 #include "io/stroke_font.h"
 
@@ -21,75 +24,7 @@ constexpr Rgb kStart{34, 160, 84};
 constexpr Rgb kEnd{222, 45, 52};
 constexpr Rgb kPathColours[] = {{46, 91, 219}, {140, 70, 214}, {226, 62, 140}, {245, 134, 42}};
 
-constexpr int kMinMapSide = 760;  // pixels of the map's long side, margins not counted
-constexpr int kMaxMapSide = 2200;
 constexpr int kBandRows = 32;
-
-/// Which cells are shown and where they lie in the picture.
-struct Layout {
-  int left = 0, bottom = 0, columns = 1,
-      rows = 1;                       ///< the known cells: columns and rows of the map's rectangle
-  int enlarge = 1;                    ///< pixels a cell, or
-  int shrink = 1;                     ///< cells a pixel; one of the two is 1
-  int map_width = 1, map_height = 1;  ///< pixels of the map in the picture
-  int margin = 0, footer = 0;         ///< pixels around the map; below it for the scale bar
-  int offset_x = 0;                   ///< pixels from the picture's left edge to the map's
-  int width = 1, height = 1;          ///< of the picture, pixels
-  float line_px = 1.0F;
-  float text_px = 1.0F;
-
-  double pixels_per_cell() const { return static_cast<double>(enlarge) / shrink; }
-};
-
-void crop_to_known(const TrinaryMap& map, Layout& layout) {
-  int left = map.width, right = -1, bottom = map.height, top = -1;
-  for (int row = 0; row < map.height; ++row) {
-    for (int column = 0; column < map.width; ++column) {
-      if (map.at(column, row) == CellState::kUnknown) continue;
-      left = std::min(left, column);
-      right = std::max(right, column);
-      bottom = std::min(bottom, row);
-      top = row;
-    }
-  }
-  if (top < 0) return;  // nothing is known: the picture shows one cell of it
-  layout.left = left;
-  layout.bottom = bottom;
-  layout.columns = right - left + 1;
-  layout.rows = top - bottom + 1;
-}
-
-/// Room for walls at the left and upper edge, which are drawn wider than they are.
-void add_rim(Layout& layout) {
-  layout.left -= layout.shrink;
-  layout.columns += layout.shrink;
-  layout.rows += layout.shrink;
-}
-
-constexpr int divide_up(int a, int b) {
-  return (a + b - 1) / b;
-}
-
-Layout lay_out(const TrinaryMap& map) {
-  Layout l;
-  crop_to_known(map, l);
-  const int long_side = std::max(l.columns, l.rows);
-  l.enlarge = std::max(1, divide_up(kMinMapSide, long_side));
-  l.shrink = divide_up(l.enlarge * long_side, kMaxMapSide);
-  if (l.enlarge == 1) add_rim(l);
-  l.map_width = divide_up(l.columns * l.enlarge, l.shrink);
-  l.map_height = divide_up(l.rows * l.enlarge, l.shrink);
-  const int long_px = std::max(l.map_width, l.map_height);
-  l.line_px = std::clamp(static_cast<float>(long_px) / 330.0F, 2.5F, 6.0F);
-  l.text_px = std::clamp(static_cast<float>(long_px) / 52.0F, 14.0F, 34.0F);
-  l.margin = long_px / 25;
-  l.footer = static_cast<int>(l.text_px * 2.0F);
-  l.width =
-      std::max(l.map_width, long_px / 4) + 2 * l.margin;  // a narrow map still has room for its scale bar
-  l.height = l.map_height + 2 * l.margin + l.footer;
-  l.offset_x = (l.width - l.map_width) / 2;
-  return l;
-}
 
 CellState state_at(const TrinaryMap& map, int column, int row) {
   const bool is_inside = column >= 0 && column < map.width && row >= 0 && row < map.height;
@@ -116,7 +51,7 @@ bool has_wall(const TrinaryMap& map, int left, int top, int count) {
 }
 
 /// One row of pixels; `row` counts from the top of the map.
-void draw_map_row(const TrinaryMap& map, const Layout& l, int row, std::span<Rgb> pixels) {
+void draw_map_row(const TrinaryMap& map, const PictureLayout& l, int row, std::span<Rgb> pixels) {
   const int top = l.bottom + l.rows - 1 - row * l.shrink / l.enlarge;
   // A line of single pixels is lost once the picture is shown smaller: where cells are that small, a wall
   // takes the pixel before it too.
@@ -128,7 +63,7 @@ void draw_map_row(const TrinaryMap& map, const Layout& l, int row, std::span<Rgb
   }
 }
 
-void draw_map(const TrinaryMap& map, const Layout& l, PictureBand& band) {
+void draw_map(const TrinaryMap& map, const PictureLayout& l, PictureBand& band) {
   for (int y = band.first_row(); y < band.first_row() + band.rows(); ++y) {
     const std::span<Rgb> pixels = band.row(y);
     std::fill(pixels.begin(), pixels.end(), kUnknown);
@@ -144,15 +79,23 @@ Rgb path_colour(double share) {
   return mix(kPathColours[step], kPathColours[step + 1], static_cast<float>(at - step));
 }
 
-StrokePoint to_picture(const TrinaryMap& map, const Layout& l, const Vector2& point_map) {
+StrokePoint to_picture(const TrinaryMap& map, const PictureLayout& l, const Vector2& point_map) {
   const Vector2 cell = point_map / map.cell_size_m - Vector2(map.origin.x, map.origin.y);
-  return {static_cast<float>(l.offset_x + (cell.x() - l.left) * l.pixels_per_cell()),
-          static_cast<float>(l.margin + (l.bottom + l.rows - cell.y()) * l.pixels_per_cell()), kInk};
+  const double x = l.offset_x + (cell.x() - l.left) * l.pixels_per_cell();
+  const double y = l.margin + (l.bottom + l.rows - cell.y()) * l.pixels_per_cell();
+  const auto bounded = [](double v) {
+    return static_cast<float>(std::clamp(v, -1e7, 1e7));
+  };  // floats may square it
+  return {bounded(x), bounded(y), kInk};
+}
+
+float distance_px(const StrokePoint& a, const StrokePoint& b) {
+  return std::hypot(b.x - a.x, b.y - a.y);
 }
 
 /// The path without the points that would fall on the same pixel: a robot that stands still adds one each
 /// scan.
-std::vector<StrokePoint> thin_path(const TrinaryMap& map, const Layout& l,
+std::vector<StrokePoint> thin_path(const TrinaryMap& map, const PictureLayout& l,
                                    const std::vector<Vector2>& path_map) {
   std::vector<StrokePoint> points;
   for (const Vector2& p : path_map) {
@@ -168,9 +111,7 @@ std::vector<StrokePoint> thin_path(const TrinaryMap& map, const Layout& l,
 /// Colours by the way travelled, not by time: standing still should not use them up.
 void colour_path(std::vector<StrokePoint>& points) {
   double length = 0.0;
-  const auto step = [&](std::size_t i) {
-    return std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y);
-  };
+  const auto step = [&](std::size_t i) { return distance_px(points[i - 1], points[i]); };
   for (std::size_t i = 1; i < points.size(); ++i) length += step(i);
   double travelled = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -179,14 +120,13 @@ void colour_path(std::vector<StrokePoint>& points) {
   }
 }
 
-void append_path(const TrinaryMap& map, const Layout& l, const MapPictureLayers& layers,
+void append_path(const TrinaryMap& map, const PictureLayout& l, const MapPictureLayers& layers,
                  std::vector<Stroke>& out) {
   std::vector<StrokePoint> points = thin_path(map, l, layers.path_map);
   if (points.empty()) return;
   colour_path(points);
-  const auto disc = [&](StrokePoint at, Rgb colour, float share, float halo) {
-    at.colour = colour;
-    out.push_back({{at}, share * l.line_px, halo * l.line_px});
+  const auto disc = [&](const StrokePoint& at, Rgb colour, float share, float halo) {
+    out.push_back({{{at.x, at.y, colour}}, share * l.line_px, halo * l.line_px});
   };
   const StrokePoint start = points.front(), end = points.back();
   out.push_back({std::move(points), l.line_px, 0.35F * l.line_px});
@@ -209,17 +149,18 @@ std::string length_label(double length_m) {
                             : shortest_text(length_m) + " m";
 }
 
-void append_scale_bar(const TrinaryMap& map, const Layout& l, std::vector<Stroke>& out) {
+void append_scale_bar(const TrinaryMap& map, const PictureLayout& l, std::vector<Stroke>& out) {
   const double pixels_per_m = l.pixels_per_cell() / map.cell_size_m;
   const double length_m = round_length(std::max(l.map_width, l.width / 2) / 4.0 / pixels_per_m);
-  const float x = static_cast<float>(std::min(l.offset_x, l.margin));
-  const float y = static_cast<float>(l.height - l.margin);
-  const float end = x + static_cast<float>(length_m * pixels_per_m);
-  const float tick = l.text_px * 0.35F;
-  out.push_back(
-      {{{x, y - tick, kInk}, {x, y, kInk}, {end, y, kInk}, {end, y - tick, kInk}}, l.line_px * 0.7F, 0.0F});
-  const float label_y = y - 0.9F * l.text_px;
-  for (Stroke& s : text_strokes(length_label(length_m), end + 0.7F * l.text_px, label_y, l.text_px, kInk)) {
+  // Whole pixels, for a crisp line: an even width about the border of two rows.
+  const float width_px = l.line_px < 5.0F ? 2.0F : 4.0F;
+  const auto x = static_cast<float>(std::min(l.offset_x, l.margin));
+  const auto y = static_cast<float>(l.height - l.margin);
+  const float end = x + static_cast<float>(std::round(length_m * pixels_per_m));
+  const float tick = std::round(l.text_px * 0.35F);
+  out.push_back({{{x, y - tick, kInk}, {x, y, kInk}, {end, y, kInk}, {end, y - tick, kInk}}, width_px, 0.0F});
+  const float label_x = end + 0.7F * l.text_px, label_y = y - 0.9F * l.text_px;
+  for (Stroke& s : text_strokes(length_label(length_m), label_x, label_y, l.text_px, kInk)) {
     out.push_back(std::move(s));
   }
 }
@@ -227,7 +168,7 @@ void append_scale_bar(const TrinaryMap& map, const Layout& l, std::vector<Stroke
 }  // namespace
 
 std::string to_png(const TrinaryMap& map, const MapPictureLayers& layers) {
-  const Layout layout = lay_out(map);
+  const PictureLayout layout = lay_out(map);
   std::vector<Stroke> strokes;
   append_path(map, layout, layers, strokes);
   append_scale_bar(map, layout, strokes);
