@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "io/safe_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/error.h"
+
+namespace dynslam {
+namespace {
+
+std::string cannot_write(const std::string& path, int error) {
+  return "cannot write to " + path + ": " + std::generic_category().message(error);
+}
+
+std::string temporary_name(const std::string& name) {
+  return "." + name + ".partial";
+}
+
+/// A file that is being written; errors are runtime_errors that name `shown_path`.
+class FileInWork {
+ public:
+  FileInWork(int folder, const std::string& name, std::string shown_path)
+      : shown_path_(std::move(shown_path)) {
+    ::unlinkat(folder, name.c_str(), 0);  // what a killed run may have left behind
+    file_ = ::openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (file_ < 0) fail();
+  }
+  ~FileInWork() {
+    if (file_ >= 0) ::close(file_);
+  }
+  FileInWork(const FileInWork&) = delete;
+  FileInWork& operator=(const FileInWork&) = delete;
+
+  void write(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t n = ::write(file_, bytes.data(), bytes.size());
+      if (n >= 0) {
+        bytes.remove_prefix(static_cast<std::size_t>(n));
+      } else if (errno != EINTR) {
+        fail();
+      }
+    }
+  }
+
+  /// Some file systems only tell at fsync or close that the disk was full.
+  void finish() {
+    const bool synced = ::fsync(file_) == 0;
+    const int error = errno;
+    const bool closed = ::close(std::exchange(file_, -1)) == 0;
+    if (!synced) errno = error;
+    if (!synced || !closed) fail();
+  }
+
+ private:
+  [[noreturn]] void fail() const { throw std::runtime_error(cannot_write(shown_path_, errno)); }
+
+  std::string shown_path_;
+  int file_ = -1;
+};
+
+}  // namespace
+
+OutputFolder::OutputFolder(std::string path) : path_(std::move(path)) {
+  std::error_code error;
+  std::filesystem::create_directories(path_, error);
+  if (error) throw InputError(cannot_write(path_, error.value()));
+  open_and_lock();
+  try_writing();
+}
+
+OutputFolder::~OutputFolder() {
+  for (const std::string& name : staged_) discard(name);
+  ::close(folder_);
+}
+
+void OutputFolder::open_and_lock() {
+  folder_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder_ < 0) throw InputError(cannot_write(path_, errno));
+  // A file system that knows no locks (some network ones) is used without.
+  if (::flock(folder_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(folder_);
+    throw InputError("cannot write to " + path_ + ": another run is writing there");
+  }
+}
+
+void OutputFolder::try_writing() {
+  try {
+    FileInWork(folder_, temporary_name("probe"), path_).write("?");
+    discard("probe");
+  } catch (const std::runtime_error& failure) {
+    discard("probe");
+    ::close(folder_);
+    throw InputError(failure.what());
+  }
+}
+
+void OutputFolder::discard(const std::string& name) noexcept {
+  ::unlinkat(folder_, temporary_name(name).c_str(), 0);
+}
+
+void OutputFolder::stage(const std::string& name, std::string_view bytes) {
+  stage(name, [bytes](const ByteSink& sink) { sink(bytes); });
+}
+
+void OutputFolder::stage(const std::string& name, const std::function<void(const ByteSink&)>& write) {
+  const std::string shown_path = (std::filesystem::path(path_) / name).string();
+  // Told now, because a rename that cannot work must not turn up halfway through commit().
+  if (struct stat there{}; ::fstatat(folder_, name.c_str(), &there, 0) == 0 && S_ISDIR(there.st_mode)) {
+    throw std::runtime_error(cannot_write(shown_path, EISDIR));
+  }
+  std::erase(staged_, name);
+  try {
+    FileInWork file(folder_, temporary_name(name), shown_path);
+    write([&file](std::string_view bytes) { file.write(bytes); });
+    file.finish();
+    staged_.push_back(name);
+  } catch (...) {
+    discard(name);
+    throw;
+  }
+}
+
+void OutputFolder::commit() {
+  while (!staged_.empty()) {
+    const std::string& name = staged_.front();
+    if (::renameat(folder_, temporary_name(name).c_str(), folder_, name.c_str()) != 0) {
+      throw std::runtime_error(cannot_write((std::filesystem::path(path_) / name).string(), errno));
+    }
+    staged_.erase(staged_.begin());
+  }
+  ::fsync(folder_);  // best effort: the files are whole in any case
+}
+
+}  // namespace dynslam

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The command line. Exit code 0: fine, 1: the work failed, 2: usage or unreadable input.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config.h"
+#include "replay_command.h"
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kUnusable = 2;
+
+/// The options that every command takes.
+struct Common {
+  std::string config;
+  std::vector<std::string> settings;
+
+  void add_to(CLI::App& command) {
+    command.add_option("--config", config, "configuration file (TOML)")->type_name("FILE");
+    command.add_option("--set", settings, "one setting, over what the file says: section.key=value")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+  }
+  dynslam::Config load() const {
+    return dynslam::make_config(config.empty() ? std::nullopt : std::optional(config), settings);
+  }
+};
+
+int run(int argc, char** argv) {
+  CLI::App app("dynslam: a map of the building a robot is in, made and kept on the robot");
+  app.set_version_flag("--version", "dynslam " DYNSLAM_VERSION);
+  app.require_subcommand(1);
+  Common common;
+
+  dynslam::ReplayOptions options;
+  CLI::App* replay = app.add_subcommand("replay", "map a recording: CARMEN log (.clf, .log, .gz) or MCAP with ROS 2 messages");
+  replay->add_option("recording", options.recording, "the recording")->required()->type_name("RECORDING");
+  replay->add_option("--out", options.out, "folder for map, trajectory and report")->type_name("DIR")->capture_default_str();
+  replay->add_flag("--quiet", options.quiet, "no progress and no summary");
+  common.add_to(*replay);
+
+  CLI::App* check = app.add_subcommand("check-config", "read a configuration file and print all settings as they are in force");
+  check->add_option("file", common.config, "configuration file (TOML)")->required()->type_name("FILE");
+  check->add_option("--set", common.settings, "one setting, over what the file says: section.key=value")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);
+    std::fprintf(stderr, "dynslam: %s (--help says more)\n", e.what());
+    return kUnusable;
+  }
+  if (check->parsed()) {
+    std::fputs(config_reference(common.load()).c_str(), stdout);
+    return 0;
+  }
+  return dynslam::run_replay(options, common.load());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const dynslam::InputError& e) {
+    std::fprintf(stderr, "dynslam: %s\n", e.what());
+    return kUnusable;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "dynslam: failed: %s\n", e.what());
+    return kFailed;
+  }
+}
