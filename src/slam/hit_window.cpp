@@ -29,16 +29,29 @@ void mark_never_seen(const Chunk& chunk, int row, std::uint8_t* to, std::uint8_t
   }
 }
 
+using Bytes = std::uint8_t __attribute__((vector_size(16)));
+using Pairs = std::uint16_t __attribute__((vector_size(16)));
+using Fours = std::uint32_t __attribute__((vector_size(16)));
+
+Bytes larger(Bytes a, Bytes b) { return a > b ? a : b; }
+
 /// The maxima of the blocks of kPool x kPool bytes that one row of a chunk of the pooled window stands for.
 void pool_row(const std::uint8_t* from, std::ptrdiff_t stride, std::uint8_t* to) {
-  std::uint8_t best[kChunkSide] = {};
-  for (int r = 0; r < HitWindow::kPool; ++r, from += stride) {
-    for (int i = 0; i < kChunkSide; ++i) best[i] = std::max(best[i], from[i]);
+  static_assert(HitWindow::kPool == 4);
+  for (int i = 0; i < kChunkSide; i += 16, to += 4) {
+    Bytes best{};
+    for (int r = 0; r < HitWindow::kPool; ++r) {
+      Bytes row;
+      std::memcpy(&row, from + r * stride + i, sizeof row);
+      best = larger(best, row);
+    }
+    // Each byte against its neighbour, then each pair against its neighbour: every byte of four becomes their maximum.
+    const Pairs pairs = reinterpret_cast<Pairs>(best);
+    best = larger(best, reinterpret_cast<Bytes>(pairs << 8 | pairs >> 8));
+    const Fours fours = reinterpret_cast<Fours>(best);
+    best = larger(best, reinterpret_cast<Bytes>(fours << 16 | fours >> 16));
+    for (int k = 0; k < 4; ++k) to[k] = best[4 * k];
   }
-  for (int step = 1; step < HitWindow::kPool; step *= 2) {
-    for (int i = 0; i + step < kChunkSide; ++i) best[i] = std::max(best[i], best[i + step]);
-  }
-  for (int i = 0; i < kChunkSide / HitWindow::kPool; ++i) to[i] = best[i * HitWindow::kPool];
 }
 
 }  // namespace

@@ -89,4 +89,22 @@ CorrectedScan egomotion_pass(const Scan& scan, const std::vector<Ray>& rays, con
   return out;
 }
 
+void stray_ray_pass(CorrectedScan& scan) {
+  constexpr float kNarrow_m = 0.1F;  // no gap narrower than this is believed from one ray
+  constexpr float kBeyond_m = 0.15F;
+  std::vector<RayEnd>& ends = scan.ends_lidar;
+  const auto widest = static_cast<float>(3.0 * scan.beam_step_rad);
+  const auto is_stray = [&](std::size_t i) {
+    const RayEnd &a = ends[i - 1], &b = ends[i + 1];
+    if (b.bearing_rad - a.bearing_rad > widest) return false;
+    const float across = std::hypot(b.x_m - a.x_m, b.y_m - a.y_m);
+    return ends[i].range_m > std::max(a.range_m, b.range_m) + kBeyond_m && across < kNarrow_m && a.hit && b.hit;
+  };
+  std::vector<std::size_t> stray;
+  for (std::size_t i = 1; i + 1 < ends.size(); ++i) {
+    if (is_stray(i)) stray.push_back(i);
+  }
+  for (auto i = stray.rbegin(); i != stray.rend(); ++i) ends.erase(ends.begin() + static_cast<std::ptrdiff_t>(*i));
+}
+
 }  // namespace dynslam

@@ -47,4 +47,8 @@ double beam_step(const Scan& scan);
 /// with the linear motion the thesis left out).
 CorrectedScan egomotion_pass(const Scan& scan, const std::vector<Ray>& rays, const MotionInScan& motion);
 
+/// Drops rays that go through a surface which the rays on both sides show closed: reflections and crosstalk. What a ray
+/// saw through a gap that is wider than two beams stays.
+void stray_ray_pass(CorrectedScan& scan);
+
 }  // namespace dynslam

@@ -126,7 +126,9 @@ std::optional<ScanResult> Slam::process(const Scan& scan) {
 
 CorrectedScan Slam::correct(const Scan& scan) {
   const std::vector<Ray> rays = clamp_pass(scan, config_);
-  return egomotion_pass(scan, rays, motion_.motion_around(reference_time(scan)));
+  CorrectedScan corrected = egomotion_pass(scan, rays, motion_.motion_around(reference_time(scan)));
+  stray_ray_pass(corrected);
+  return corrected;
 }
 
 /// Where the scan was taken, by the map. A prior that the scan contradicts is set aside for a wider look.
