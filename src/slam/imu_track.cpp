@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/clock_jump.h"
+
 namespace dynslam {
 
 void ImuTrack::add(const ImuSample& sample) {
+  if (!samples_.empty() && is_clock_jump(samples_.back().stamp, sample.stamp)) samples_.clear();
   if (!samples_.empty() && sample.stamp <= samples_.back().stamp) {
     ++out_of_order_;
     return;

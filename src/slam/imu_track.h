@@ -14,7 +14,7 @@ namespace dynslam {
 /// listing 4.1), interpolated at any time in between. One thread.
 class ImuTrack {
  public:
-  /// Samples that do not advance in time are dropped and counted.
+  /// Samples that do not advance in time are dropped and counted; a clock that was set back starts the track anew.
   void add(const ImuSample& sample);
 
   bool empty() const { return samples_.empty(); }

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 
+#include "slam/clock_jump.h"
+
 namespace dynslam {
 
 void OdometryTrack::add(const OdometrySample& sample) {
+  if (!samples_.empty() && is_clock_jump(samples_.back().stamp, sample.stamp)) samples_.clear();
   if (!samples_.empty() && sample.stamp < samples_.back().stamp) {
     ++out_of_order_;
     return;

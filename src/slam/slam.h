@@ -11,6 +11,7 @@
 #include "base/scan.h"
 #include "grid/chunked_grid.h"
 #include "grid/free_space.h"
+#include "slam/clock_jump.h"
 #include "slam/local_map.h"
 #include "slam/motion_model.h"
 #include "slam/passes.h"
@@ -45,7 +46,8 @@ class Slam {
   void add(Scan scan);
 
   /// Works off the oldest scan that is ready. `at_end`: nothing more will come, do not wait for the IMU.
-  /// A scan that is not later than the one before it, or that has no beams left, is counted and passed over.
+  /// A scan that is not later than the one before it is counted and passed over; a clock that was set back by more than
+  /// a second is followed.
   std::optional<ScanResult> next(bool at_end = false);
 
   /// All scans drawn so far.
@@ -59,11 +61,21 @@ class Slam {
   Counters counters() const;
 
  private:
+  /// Where the robot was at a scan's reference time.
+  struct Fix {
+    Pose2 map_T_robot;
+    MatchResult match;
+    bool matched = false;  ///< the map said so
+  };
+
+  void note_time(Time t);
   bool is_ready(const Scan& scan) const;
-  std::optional<ScanResult> process(const Scan& scan);
+  bool is_news(const Scan& scan);
+  ScanResult process(const Scan& scan);
   CorrectedScan correct(const Scan& scan);
-  MatchResult locate(const CorrectedScan& scan);
-  bool is_believable(const MatchResult& result) const;
+  Fix first_fix();
+  Fix locate(const CorrectedScan& scan);
+  bool may_insert(const Scan& scan, const Fix& fix);
   void insert(const CorrectedScan& scan, const Pose2& map_T_robot);
   void begin_local_map(const Pose2& map_T_robot, Time t);
   void count_scan(const Pose2& map_T_robot, Time t);
@@ -84,7 +96,7 @@ class Slam {
   std::size_t local_maps_begun_ = 0;
   ChunkedGrid global_map_;
   Pose2 last_counted_;
-  double usual_hit_ = 0.0;
+  double usual_hit_ = 0.0;  ///< see MatchPrior
   int unmatched_in_a_row_ = 0;
   std::optional<Time> last_stamp_;
   Counters counters_;
