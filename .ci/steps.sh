@@ -1,0 +1,169 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: MIT
+# The steps of .ci/full. Each runs in its own shell at the top of the tree with `set -e`, and installs what it needs.
+
+logs=$PWD/build/ci
+skipped=77
+recording=tests/data/mit-csail.clf.gz
+CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
+CTEST_PARALLEL_LEVEL=$CMAKE_BUILD_PARALLEL_LEVEL
+# What was compiled in one checkout serves in another.
+CCACHE_BASEDIR=$PWD
+CCACHE_NOHASHDIR=1
+export CMAKE_BUILD_PARALLEL_LEVEL CTEST_PARALLEL_LEVEL CCACHE_BASEDIR CCACHE_NOHASHDIR
+
+need() { toolchain/install.sh "$@"; }
+
+need_to_build() {
+  # shellcheck disable=SC2046 # one word a package
+  need ccache $(grep -v '^#' toolchain/packages.txt) "$@"
+}
+
+skip() {
+  echo "skipped: $*"
+  exit $skipped
+}
+
+# Runs a command and shows what it printed only if it failed.
+quietly() {
+  local log
+  log=$(mktemp)
+  if "$@" >"$log" 2>&1; then
+    rm "$log"
+  else
+    grep -v '^\[[0-9]*/[0-9]*\] ' "$log" || true
+    rm "$log"
+    return 1
+  fi
+}
+
+build() {
+  echo "building with preset $1"
+  quietly cmake --preset "$1"
+  quietly cmake --build --preset "$1"
+}
+
+# Tests what a preset built; words after its name start each ctest, as `setarch -R` does.
+run_tests() {
+  local preset=$1
+  shift
+  quietly "$@" ctest --preset "$preset" --no-tests=error --timeout 600 --output-log "$logs/$preset.ctest"
+  sed -n '/tests passed,/,$p' "$logs/$preset.ctest"
+}
+
+step_host() {
+  need ccache
+  toolchain/host.sh test
+}
+
+step_replay() {
+  local name files=(map.png map.pgm map.yaml trajectory.tum trajectory_live.tum report.json)
+  out=$(mktemp -d)
+  trap 'rm -rf "$out"' EXIT
+  rm -f "${files[@]/#/out/}"
+  toolchain/host.sh run
+  toolchain/host.sh run replay "$recording" --set slam.trusted_range_m=30 --out "$out" --quiet
+  for name in "${files[@]}"; do
+    [[ -s out/$name && -s $out/$name ]] || { echo "$name was not written" && return 1; }
+    [[ $name == report.json ]] || cmp "out/$name" "$out/$name"
+  done
+  echo "all ${#files[@]} files are there; a second run gave the same trajectories and map"
+}
+
+step_asan() {
+  need_to_build
+  build asan
+  run_tests asan
+  out=$(mktemp -d)
+  trap 'rm -rf "$out"' EXIT
+  build/asan/src/dynslam replay "$recording" --set slam.trusted_range_m=30 --out "$out" --quiet
+}
+
+step_format() {
+  # Another release of clang-format would lay out some lines in another way.
+  need clang-format-14 || skip "clang-format 14 is to be had on Debian 12"
+  git ls-files -z '*.h' '*.cpp' | xargs -0 clang-format-14 --dry-run -Werror
+}
+
+step_scripts() {
+  need shellcheck
+  git grep -lz -E '^#!/bin/(ba)?sh' -- .ci toolchain | xargs -0 shellcheck --external-sources
+}
+
+step_tsan() {
+  need_to_build
+  build tsan
+  # Its shadow memory leaves no room for addresses as random as some kernels make them.
+  run_tests tsan setarch --addr-no-randomize
+}
+
+step_coverage() {
+  need_to_build gcovr
+  build coverage
+  find build/coverage -name '*.gcda' -delete
+  run_tests coverage
+  local lines=build/coverage/lines.json folder failed=0
+  quietly gcovr --root . --object-directory build/coverage --filter src/ --json "$lines"
+  for folder in base grid io slam; do
+    gcovr --root . --add-tracefile "$lines" --filter "src/$folder/" --fail-under-line 90 --print-summary --output /dev/null \
+      >"$logs/gcovr" || failed=1
+    printf 'src/%-5s %s\n' $folder "$(grep ^lines "$logs/gcovr")"
+  done
+  return $failed
+}
+
+step_clang() {
+  need_to_build clang
+  build clang
+  run_tests clang
+}
+
+step_tidy() {
+  need_to_build clang clang-tidy-14 || skip "clang-tidy 14 is to be had on Debian 12"
+  quietly cmake --preset clang
+  quietly run-clang-tidy-14 -quiet -p build/clang -j "$CMAKE_BUILD_PARALLEL_LEVEL" "^$PWD/src/"
+}
+
+step_fuzz() {
+  need_to_build clang libclang-rt-dev
+  build fuzz
+  local target name found=build/fuzz/found
+  mkdir -p $found
+  for target in build/fuzz/tests/fuzz/fuzz_*; do
+    [[ -f $target && -x $target ]] || continue
+    name=${target##*/fuzz_}
+    mkdir -p "build/fuzz/corpus/$name"
+    "$target" -max_total_time="${FUZZ_SECONDS:-60}" -timeout=10 -rss_limit_mb=2048 -artifact_prefix=$found/ \
+      "build/fuzz/corpus/$name" "tests/fuzz/corpus/$name" >"$logs/fuzz_$name" 2>&1 ||
+      { tail -n 60 "$logs/fuzz_$name" && return 1; }
+    echo "$name: $(grep '^Done' "$logs/fuzz_$name")"
+  done
+  [[ $name ]]
+}
+
+# Tests and runs a clean clone of the last commit in a new Debian, and tests again what is built.
+fresh_debian() {
+  local job began
+  root=/var/tmp/dynslam-$1-$$
+  [[ $(id -u) == 0 ]] || skip "making a Debian root and entering it takes root"
+  need mmdebstrap git
+  trap 'rm -rf --one-file-system "$root"' EXIT
+  echo "making a Debian $1"
+  quietly mmdebstrap --variant=minbase "$1" "$root" "$(toolchain/mirror.sh)"
+  git clone --quiet --no-hardlinks . "$root/root/dynslam"
+  echo "commit $(git log -1 --format='%h %s')$(git diff --quiet HEAD || echo ', without what is not committed')"
+  for job in test run test; do
+    began=$SECONDS
+    unshare --mount --pid --fork --kill-child --root "$root" --mount-proc env -i \
+      HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin CMAKE_BUILD_PARALLEL_LEVEL="$CMAKE_BUILD_PARALLEL_LEVEL" \
+      /root/dynslam/toolchain/host.sh $job
+    echo "host.sh $job took $((SECONDS - began)) s"
+  done
+  [[ -s $root/root/dynslam/out/map.png ]]
+}
+step_debian12() { fresh_debian bookworm; }
+step_debian13() { fresh_debian trixie; }
+
+step_arm64() { toolchain/pi.sh test; }
+
+# A step `browser`, with the page in a real browser, belongs here once there is a page.
