@@ -102,7 +102,7 @@ ScanResult Slam::process(const Scan& scan) {
   choose_points(corrected, config_.cell_size_m, points_);
 
   enter("match");
-  const Fix fix = local_maps_.empty() ? first_fix() : locate(corrected);
+  const Fix fix = local_maps_.empty() ? first_fix(corrected.reference) : locate(corrected);
   ScanResult result;
   result.stamp = scan.stamp;
   result.map_T_robot = pose_at_stamp(scan, corrected, fix.map_T_robot);
@@ -146,9 +146,9 @@ CorrectedScan Slam::correct(const Scan& scan) {
 }
 
 /// With no map yet, the robot is where motion sensors say, at first at the origin; a scan that shows anything will do.
-Slam::Fix Slam::first_fix() {
+Slam::Fix Slam::first_fix(Time t) {
   Fix fix;
-  fix.map_T_robot = motion_.last_pose();
+  fix.map_T_robot = motion_.has_fix() ? motion_.expect(t).map_T_robot : Pose2{};
   fix.matched = !points_.empty();
   fix.match.score = fix.matched ? 1.0 : 0.0;
   return fix;

@@ -73,7 +73,7 @@ class Slam {
   bool is_news(const Scan& scan);
   ScanResult process(const Scan& scan);
   CorrectedScan correct(const Scan& scan);
-  Fix first_fix();
+  Fix first_fix(Time t);
   Fix locate(const CorrectedScan& scan);
   bool may_insert(const Scan& scan, const Fix& fix);
   void insert(const CorrectedScan& scan, const Pose2& map_T_robot);
