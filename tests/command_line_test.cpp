@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The program as a user meets it: run as a process, judged by exit code, stderr and files.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
 
 #include "progress_bar.h"
 
@@ -45,7 +45,8 @@ class CommandLine : public ::testing::Test {
     FILE* pipe = popen((DYNSLAM_BINARY " " + arguments + " 2>" + err).c_str(), "r");
     Outcome outcome;
     std::array<char, 4096> block;
-    for (std::size_t n = 0; (n = fread(block.data(), 1, block.size(), pipe)) > 0;) outcome.out.append(block.data(), n);
+    for (std::size_t n = 0; (n = fread(block.data(), 1, block.size(), pipe)) > 0;)
+      outcome.out.append(block.data(), n);
     outcome.code = WEXITSTATUS(pclose(pipe));
     outcome.err = contents(err);
     return outcome;
@@ -66,7 +67,8 @@ class CommandLine : public ::testing::Test {
       FILE* pipe = popen(("gzip -dc " + kRecording).c_str(), "r");
       std::string all;
       std::array<char, 65536> block;
-      for (std::size_t n = 0; (n = fread(block.data(), 1, block.size(), pipe)) > 0;) all.append(block.data(), n);
+      for (std::size_t n = 0; (n = fread(block.data(), 1, block.size(), pipe)) > 0;)
+        all.append(block.data(), n);
       pclose(pipe);
       return all;
     }();
@@ -89,7 +91,8 @@ TEST_F(CommandLine, SaysItsVersionAndHelp) {
 }
 
 TEST_F(CommandLine, RefusesWrongUsage) {
-  for (const char* wrong : {"", "fly", "replay", "replay a b", "replay a --no-such-option"}) expect_one_line(dynslam(wrong), 2, "dynslam: ");
+  for (const char* wrong : {"", "fly", "replay", "replay a b", "replay a --no-such-option"})
+    expect_one_line(dynslam(wrong), 2, "dynslam: ");
 }
 
 TEST_F(CommandLine, MapsARecordingIntoAFolder) {
@@ -98,22 +101,26 @@ TEST_F(CommandLine, MapsARecordingIntoAFolder) {
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_EQ(o.err, "") << "no progress bar where stderr is no terminal";
   EXPECT_THAT(o.out, HasSubstr("map.png"));
-  for (const char* name : {"trajectory.tum", "trajectory_live.tum", "map.pgm", "map.yaml", "map.png", "report.json"}) {
+  for (const char* name :
+       {"trajectory.tum", "trajectory_live.tum", "map.pgm", "map.yaml", "map.png", "report.json"}) {
     EXPECT_GT(fs::file_size(folder_ / "a/b" / name), 50U) << name;
   }
   const auto report = nlohmann::json::parse(contents(folder_ / "a/b/report.json"));
   EXPECT_EQ(report["scans"], 96);
-  for (const char* key : {"inserted", "skipped", "duration_s", "wall_s", "cpu_s", "peak_rss_bytes", "local_maps",
-                          "active_local_maps", "loop_closures"}) {
+  for (const char* key : {"inserted", "skipped", "duration_s", "wall_s", "cpu_s", "peak_rss_bytes",
+                          "local_maps", "active_local_maps", "loop_closures"}) {
     EXPECT_TRUE(report[key].is_number()) << key;
   }
-  for (const char* key : {"mean", "p50", "p99", "max"}) EXPECT_TRUE(report["scan_ms"][key].is_number()) << key;
-  for (const char* key : {"cell_size_m", "chunks", "bytes"}) EXPECT_TRUE(report["map"][key].is_number()) << key;
+  for (const char* key : {"mean", "p50", "p99", "max"})
+    EXPECT_TRUE(report["scan_ms"][key].is_number()) << key;
+  for (const char* key : {"cell_size_m", "chunks", "bytes"})
+    EXPECT_TRUE(report["map"][key].is_number()) << key;
 }
 
 TEST_F(CommandLine, GivesTheSameBytesTwice) {
   const std::string log = file("short.log", short_log(400));
-  for (const char* out : {"a", "b"}) EXPECT_EQ(dynslam("replay " + log + " --quiet --out " + (folder_ / out).string()).code, 0);
+  for (const char* out : {"a", "b"})
+    EXPECT_EQ(dynslam("replay " + log + " --quiet --out " + (folder_ / out).string()).code, 0);
   for (const char* name : {"trajectory.tum", "trajectory_live.tum", "map.pgm", "map.yaml", "map.png"}) {
     EXPECT_EQ(contents(folder_ / "a" / name), contents(folder_ / "b" / name)) << name;
   }
@@ -140,7 +147,10 @@ TEST_F(CommandLine, MapsWhatCameBeforeABreak) {
 TEST_F(CommandLine, LeavesAnOlderResultWhenItFails) {
   fs::create_directory(folder_ / "out");
   std::ofstream(folder_ / "out/map.png") << "older";
-  EXPECT_EQ(dynslam("replay " + file("none.log", "PARAM a 1 0 h 0\n") + " --out " + (folder_ / "out").string()).code, 2);
+  EXPECT_EQ(
+      dynslam("replay " + file("none.log", "PARAM a 1 0 h 0\n") + " --out " + (folder_ / "out").string())
+          .code,
+      2);
   EXPECT_EQ(contents(folder_ / "out/map.png"), "older");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "out"), {}), 1) << "nothing half-written is left";
 }
@@ -170,7 +180,10 @@ TEST_F(CommandLine, TakesSettingsFromFileAndLine) {
   const std::string log = file("short.log", short_log(60));
   const std::string config = file("robot.toml", "[slam]\ncell_size_m = 0.05\n");
   const std::string out = (folder_ / "out").string();
-  EXPECT_EQ(dynslam("replay " + log + " --config " + config + " --set slam.trusted_range_m=6 --quiet --out " + out).code, 0);
+  EXPECT_EQ(
+      dynslam("replay " + log + " --config " + config + " --set slam.trusted_range_m=6 --quiet --out " + out)
+          .code,
+      0);
   EXPECT_THAT(contents(folder_ / "out/map.yaml"), HasSubstr("resolution: 0.05"));
 }
 

@@ -5,8 +5,8 @@
 
 namespace dynslam {
 
-/// Whether a stamp lies so far before the newest one that the clock itself must have been set back. A little before is
-/// only disorder.
+/// Whether a stamp lies so far before the newest one that the clock itself must have been set back. A little
+/// before is only disorder.
 inline bool is_clock_jump(Time newest, Time next) { return next + std::chrono::seconds(1) < newest; }
 
 }  // namespace dynslam

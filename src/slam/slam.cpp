@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
+
+#include "base/error.h"
 
 namespace dynslam {
 namespace {
@@ -11,6 +14,8 @@ namespace {
 /// How long a scan waits for an IMU that has stopped talking, counted in the time of other samples.
 constexpr Duration kImuPatience = std::chrono::milliseconds(150);
 constexpr std::size_t kMostPoints = 2000;
+/// The bitmaps of a scan grow with the square of this: 32 MiB.
+constexpr int kMostCells = 8000;
 /// Less than this since the last scan that counted: the robot stands.
 constexpr double kStanding_m = 0.02;
 constexpr double kStanding_rad = 0.01;
@@ -24,7 +29,8 @@ constexpr double kUsualShare = 0.2;
 
 /// What a scan has to offer for matching: its hits, in the robot's frame and in cells.
 void choose_points(const CorrectedScan& scan, double cell_size_m, std::vector<MatchPoint>& points) {
-  const double c = std::cos(scan.robot_T_lidar.yaw) / cell_size_m, s = std::sin(scan.robot_T_lidar.yaw) / cell_size_m;
+  const double c = std::cos(scan.robot_T_lidar.yaw) / cell_size_m,
+               s = std::sin(scan.robot_T_lidar.yaw) / cell_size_m;
   const Vector2 at = scan.robot_T_lidar.translation() / cell_size_m;
   const std::size_t stride = 1 + scan.ends_lidar.size() / kMostPoints;
   const double arc_cells = static_cast<double>(stride) * scan.beam_step_rad / cell_size_m;
@@ -32,7 +38,8 @@ void choose_points(const CorrectedScan& scan, double cell_size_m, std::vector<Ma
   for (std::size_t i = 0; i < scan.ends_lidar.size(); i += stride) {
     const RayEnd& e = scan.ends_lidar[i];
     if (!e.hit) continue;
-    points.push_back({static_cast<float>(at.x() + c * e.x_m - s * e.y_m), static_cast<float>(at.y() + s * e.x_m + c * e.y_m),
+    points.push_back({static_cast<float>(at.x() + c * e.x_m - s * e.y_m),
+                      static_cast<float>(at.y() + s * e.x_m + c * e.y_m),
                       static_cast<float>(std::min(1.0, arc_cells * e.range_m))});
   }
 }
@@ -49,7 +56,11 @@ Slam::Slam(const SlamConfig& config, StageWatch* watch)
     : config_(config),
       watch_(watch),
       matcher_({.search_half_width_m = config.search_half_width_m}),
-      global_map_(config.cell_size_m, static_cast<std::size_t>(config.max_chunks)) {}
+      global_map_(config.cell_size_m, static_cast<std::size_t>(config.max_chunks)) {
+  if (config.trusted_range_m > kMostCells * config.cell_size_m) {
+    throw InputError("slam.trusted_range_m: more than " + std::to_string(kMostCells) + " cells of slam.cell_size_m");
+  }
+}
 
 void Slam::add(const ImuSample& sample) {
   note_time(sample.stamp);
@@ -145,7 +156,8 @@ CorrectedScan Slam::correct(const Scan& scan) {
   return corrected;
 }
 
-/// With no map yet, the robot is where motion sensors say, at first at the origin; a scan that shows anything will do.
+/// With no map yet, the robot is where motion sensors say, at first at the origin; a scan that shows anything
+/// will do.
 Slam::Fix Slam::first_fix(Time t) {
   Fix fix;
   fix.map_T_robot = motion_.has_fix() ? motion_.expect(t).map_T_robot : Pose2{};
@@ -154,8 +166,8 @@ Slam::Fix Slam::first_fix(Time t) {
   return fix;
 }
 
-/// Where the scan was taken, by the map. A prior that the scan contradicts is set aside for a wider look; where the map
-/// does not answer, the motion sensors' word stands.
+/// Where the scan was taken, by the map. A prior that the scan contradicts is set aside for a wider look;
+/// where the map does not answer, the motion sensors' word stands.
 Slam::Fix Slam::locate(const CorrectedScan& scan) {
   const ChunkedGrid& map = local_maps_.front().grid;
   MatchPrior prior = motion_.expect(scan.reference);
@@ -182,8 +194,8 @@ void Slam::begin_local_map(const Pose2& map_T_robot, Time t) {
   ++local_maps_begun_;
 }
 
-/// Keeps two local maps going, half a map apart, so that no scan is matched against an empty one. Scans taken standing
-/// are drawn but do not count.
+/// Keeps two local maps going, half a map apart, so that no scan is matched against an empty one. Scans taken
+/// standing are drawn but do not count.
 void Slam::count_scan(const Pose2& map_T_robot, Time t) {
   const Pose2 moved = last_counted_.inverse() * map_T_robot;
   const double distance = moved.translation().norm();
@@ -202,7 +214,8 @@ void Slam::count_scan(const Pose2& map_T_robot, Time t) {
     if (local_maps_.size() > 1) local_maps_.pop_front();
   }
   const LocalMap& oldest = local_maps_.front();
-  const bool half = 2 * oldest.scans >= config_.scans_per_local_map || 2 * oldest.travel_m >= config_.travel_per_local_map_m;
+  const bool half = 2 * oldest.scans >= config_.scans_per_local_map ||
+                    2 * oldest.travel_m >= config_.travel_per_local_map_m;
   if (half && local_maps_.size() < 2) begin_local_map(map_T_robot, t);
 }
 
@@ -214,7 +227,8 @@ void Slam::insert(const CorrectedScan& scan, const Pose2& map_T_robot) {
   global_map_.apply(footprint);
 }
 
-/// The scan's pose is that of its middle; its stamp is that of its first beam, a few centimetres of way earlier.
+/// The scan's pose is that of its middle; its stamp is that of its first beam, a few centimetres of way
+/// earlier.
 Pose2 Slam::pose_at_stamp(const Scan& scan, const CorrectedScan& corrected, const Pose2& map_T_robot) const {
   const Pose2 back = motion_.motion_around(corrected.reference)(scan.stamp);
   Pose2 at = map_T_robot * back;

@@ -33,12 +33,12 @@ struct ScanResult {
 
 /// From sensor samples to poses and a map (thesis, figures 4.2 and 4.3): the sum of this folder.
 ///
-/// Samples go in as they arrive. A scan waits until the IMU has told of its whole turn, or has fallen silent; then
-/// `next` takes it through the stages. Results depend on the samples and their order alone, never on a clock.
-/// One thread.
+/// Samples go in as they arrive. A scan waits until the IMU has told of its whole turn, or has fallen silent;
+/// then `next` takes it through the stages. Results depend on the samples and their order alone, never on a
+/// clock. One thread.
 class Slam {
  public:
-  /// `watch`, when given, must outlive this.
+  /// `watch`, when given, must outlive this. Throws InputError when a trusted ray is longer than 8000 cells.
   explicit Slam(const SlamConfig& config, StageWatch* watch = nullptr);
 
   void add(const ImuSample& sample);
@@ -46,8 +46,8 @@ class Slam {
   void add(Scan scan);
 
   /// Works off the oldest scan that is ready. `at_end`: nothing more will come, do not wait for the IMU.
-  /// A scan that is not later than the one before it is counted and passed over; a clock that was set back by more than
-  /// a second is followed.
+  /// A scan that is not later than the one before it is counted and passed over; a clock that was set back by
+  /// more than a second is followed.
   std::optional<ScanResult> next(bool at_end = false);
 
   /// All scans drawn so far.
@@ -90,8 +90,8 @@ class Slam {
   ScanMatcher matcher_;
   FreeSpace free_space_;
   std::deque<Scan> waiting_;
-  Time newest_sample_;             ///< of any kind
-  std::vector<MatchPoint> points_; ///< of the scan at hand
+  Time newest_sample_;               ///< of any kind
+  std::vector<MatchPoint> points_;   ///< of the scan at hand
   std::deque<LocalMap> local_maps_;  ///< one or two; the older, in front, is matched against
   std::size_t local_maps_begun_ = 0;
   ChunkedGrid global_map_;

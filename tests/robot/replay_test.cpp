@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "robot/replay.h"
 
-#include <gtest/gtest.h>
-
 #include <sstream>
+
+#include <gtest/gtest.h>
 
 #include "grid/trinary_map.h"
 #include "io/open_recording.h"

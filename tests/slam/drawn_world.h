@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -40,8 +40,8 @@ struct DrawnWorld {
   }
 };
 
-/// A flat of two rooms and a few things in them, 8 x 5 m, no two views alike. (Its outer walls lie off the lines between
-/// cells: without noise, a wall on such a line is drawn half a cell off.)
+/// A flat of two rooms and a few things in them, 8 x 5 m, no two views alike. (Its outer walls lie off the
+/// lines between cells: without noise, a wall on such a line is drawn half a cell off.)
 inline DrawnWorld two_rooms() {
   DrawnWorld world;
   world.add_box(0.007, 0.011, 8.013, 5.009);
@@ -60,7 +60,8 @@ struct LidarModel {
   double noise_m = 0.0;
 };
 
-/// What the lidar sees while the robot moves as `world_T_robot` says: each beam from where the robot is at its time.
+/// What the lidar sees while the robot moves as `world_T_robot` says: each beam from where the robot is at
+/// its time.
 inline Scan look(const DrawnWorld& world, Time stamp, const std::function<Pose2(Time)>& world_T_robot,
                  const LidarModel& lidar, std::mt19937& random, const LidarMount& mount = {}) {
   std::normal_distribution<double> noise(0.0, 1.0);

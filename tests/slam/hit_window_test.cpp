@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "slam/hit_window.h"
 
-#include <gtest/gtest.h>
+#include <random>
 
 #include <Eigen/Eigenvalues>
-#include <random>
+#include <gtest/gtest.h>
 
 #include "slam/byte_search.h"
 #include "slam/smooth_hits.h"
@@ -35,9 +35,11 @@ TEST(HitWindow, HoldsTheHitsAroundThePointsAcrossSeams) {
     const Vector2 there = at * Vector2(p.x, p.y);
     for (int dy = -8; dy <= 8; ++dy) {
       for (int dx = -8; dx <= 8; ++dx) {
-        const CellIndex c{static_cast<int>(std::floor(there.x())) + dx, static_cast<int>(std::floor(there.y())) + dy};
+        const CellIndex c{static_cast<int>(std::floor(there.x())) + dx,
+                          static_cast<int>(std::floor(there.y())) + dy};
         ASSERT_TRUE(window.contains(c.x - window.first().x, c.y - window.first().y));
-        EXPECT_EQ(window.data()[(c.y - window.first().y) * window.stride() + c.x - window.first().x], grid.hit(c));
+        EXPECT_EQ(window.data()[(c.y - window.first().y) * window.stride() + c.x - window.first().x],
+                  grid.hit(c));
       }
     }
   }
@@ -75,10 +77,12 @@ TEST(HitWindow, PoolsMaxima) {
       int most = 0;
       for (int j = 0; j < HitWindow::kPool; ++j) {
         for (int i = 0; i < HitWindow::kPool; ++i) {
-          most = std::max<int>(most, fine.data()[(cy * HitWindow::kPool + j) * fine.stride() + cx * HitWindow::kPool + i]);
+          most = std::max<int>(
+              most, fine.data()[(cy * HitWindow::kPool + j) * fine.stride() + cx * HitWindow::kPool + i]);
         }
       }
-      if (std::abs(y + fine.first().y) > 24) continue;  // only around the points does the window hold anything
+      if (std::abs(y + fine.first().y) > 24)
+        continue;  // only around the points does the window hold anything
       ASSERT_EQ(coarse.data()[cy * coarse.stride() + cx], most) << x << " " << y;
     }
   }
@@ -111,7 +115,8 @@ TEST(SmoothHits, IsOneOnSureGroundAndFadesOverTwoCells) {
   HitWindow window;
   window.load(grid, points, {}, 30, 0);
   const auto at = [&](float x, float y) {
-    return smooth_hit(window, x - static_cast<float>(window.first().x), y - static_cast<float>(window.first().y));
+    return smooth_hit(window, x - static_cast<float>(window.first().x),
+                      y - static_cast<float>(window.first().y));
   };
   EXPECT_NEAR(at(0.3F, -0.7F), 1.0, 1e-5);
   EXPECT_NEAR(at(11.0F, 0.5F), 0.5, 0.01) << "the edge between the last cell with hits and the first without";

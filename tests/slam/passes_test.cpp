@@ -41,7 +41,8 @@ TEST(ReferenceTime, IsTheMiddleOfTheScan) {
 }
 
 /// Ends of a scan corrected with the true motion, moved into the world: how far the worst lies off the walls.
-double worst_off_walls(const DrawnWorld& world, const std::function<Pose2(Time)>& world_T_robot, const LidarMount& mount) {
+double worst_off_walls(const DrawnWorld& world, const std::function<Pose2(Time)>& world_T_robot,
+                       const LidarMount& mount) {
   std::mt19937 random(1);
   const Scan scan = look(world, time_at_s(100), world_T_robot, {.beams = 600}, random, mount);
   const Time reference = reference_time(scan);
@@ -87,7 +88,12 @@ TEST(EgomotionPass, OfNothingIsNothing) {
 
 TEST(EgomotionPass, SortsBeamsInAnyOrder) {
   std::mt19937 random(3);
-  Scan scan = look(two_rooms(), time_at_s(0), [](Time) { return Pose2{2, 2, 0}; }, {.turn_s = 0}, random);
+  Scan scan = look(
+      two_rooms(), time_at_s(0),
+      [](Time) {
+        return Pose2{2, 2, 0};
+      },
+      {.turn_s = 0}, random);
   std::shuffle(scan.beams.begin(), scan.beams.end(), random);
   const CorrectedScan corrected = egomotion_pass(scan, clamp_pass(scan, {}), standing);
   EXPECT_TRUE(std::is_sorted(corrected.ends_lidar.begin(), corrected.ends_lidar.end(),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "slam/scan_matcher.h"
 
-#include <gtest/gtest.h>
-
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "grid/free_space.h"
 #include "slam/drawn_world.h"
@@ -19,7 +19,8 @@ constexpr double kCell = 0.02;
 /// A scan of the two rooms as points in the robot's frame, in cells.
 std::vector<MatchPoint> points_from(const Pose2& world_T_robot, double cell = kCell, double noise_m = 0.0) {
   std::mt19937 random(8);
-  const Scan scan = look(two_rooms(), {}, [&](Time) { return world_T_robot; }, {.turn_s = 0, .noise_m = noise_m}, random);
+  const Scan scan = look(
+      two_rooms(), {}, [&](Time) { return world_T_robot; }, {.turn_s = 0, .noise_m = noise_m}, random);
   std::vector<MatchPoint> points;
   for (const Beam& b : scan.beams) {
     points.push_back({static_cast<float>(b.range_m * std::cos(b.angle_rad) / cell),
@@ -36,7 +37,8 @@ ChunkedGrid map_of_rooms(const Pose2& frame, double cell = kCell) {
   const Pose2 places[] = {{2, 2.5, 0}, {6, 2.5, 0.3}, {3, 3, 2}, {4.5, 2.4, 1}};
   for (int i = 0; i < 40; ++i) {
     const Pose2 at = places[i % 4];
-    const Scan scan = look(two_rooms(), {}, [&](Time) { return at; }, {.beams = 1000, .turn_s = 0, .noise_m = 0.01}, random);
+    const Scan scan = look(
+        two_rooms(), {}, [&](Time) { return at; }, {.beams = 1000, .turn_s = 0, .noise_m = 0.01}, random);
     const CorrectedScan corrected = egomotion_pass(scan, clamp_pass(scan, {}), [](Time) { return Pose2{}; });
     grid.apply(free_space.trace(frame * at, corrected.ends_lidar, 0.02, cell));
   }
@@ -77,7 +79,8 @@ TEST(ScanMatcher, WorksWithCoarseCells) {
   const Pose2 truth{2.4, 2.1, -0.7};
   const ChunkedGrid map = map_of_rooms({}, 0.05);
   ScanMatcher matcher;
-  const MatchResult result = matcher.match(map, points_from(truth, 0.05), {truth * Pose2{0.1, 0.05, 0.03}, 0.05, 0.02});
+  const MatchResult result =
+      matcher.match(map, points_from(truth, 0.05), {truth * Pose2{0.1, 0.05, 0.03}, 0.05, 0.02});
   EXPECT_THAT(result.map_T_robot, PoseNear(truth, 0.015, 0.006));
 }
 
@@ -90,7 +93,9 @@ TEST(ScanMatcher, LetsThePriorDecideWhereTheMapCannot) {
       corridor.add_hit({x, 50});
       corridor.add_hit({x, -51});
     }
-    if (std::abs(x) < 200) points.push_back({static_cast<float>(x), 50.5F, 1}), points.push_back({static_cast<float>(x), -50.5F, 1});
+    if (std::abs(x) < 200)
+      points.push_back({static_cast<float>(x), 50.5F, 1}),
+          points.push_back({static_cast<float>(x), -50.5F, 1});
   }
   ScanMatcher matcher;
   const MatchResult result = matcher.match(corridor, points, {{1.0, 0.05, 0.0}, 0.1, 0.02});
@@ -108,14 +113,16 @@ TEST(ScanMatcher, SaysWhenTheMapDoesNotAnswer) {
   EXPECT_THAT(elsewhere.map_T_robot, PoseNear(Pose2{200, 200, 0}, 1e-6, 1e-6));
   std::vector<MatchPoint> nonsense;
   std::mt19937 random(2);
-  for (int i = 0; i < 300; ++i) nonsense.push_back({static_cast<float>(random() % 60), static_cast<float>(random() % 60), 1});
+  for (int i = 0; i < 300; ++i)
+    nonsense.push_back({static_cast<float>(random() % 60), static_cast<float>(random() % 60), 1});
   EXPECT_LT(matcher.match(map, nonsense, {{2.4, 2.1, 0}}).matched, 0.4);
 }
 
 TEST(ScanMatcher, AnswersThePriorWithNothingToGoBy) {
   ScanMatcher matcher;
   const Pose2 expected{1, 2, 3};
-  EXPECT_THAT(matcher.match(ChunkedGrid(kCell), points_from({2, 2, 0}), {expected}).map_T_robot, PoseNear(expected, 1e-9, 1e-9));
+  EXPECT_THAT(matcher.match(ChunkedGrid(kCell), points_from({2, 2, 0}), {expected}).map_T_robot,
+              PoseNear(expected, 1e-9, 1e-9));
   const MatchResult blind = matcher.match(map_of_rooms({}), {}, {expected});
   EXPECT_THAT(blind.map_T_robot, PoseNear(expected, 1e-9, 1e-9));
   EXPECT_EQ(blind.score, 0.0);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "slam/drawn_world.h"
 #include "support_matchers.h"
 
@@ -18,7 +19,8 @@ class Drive {
   static Pose2 world_T_robot(Time t) {
     const double s = std::max(0.0, seconds_of(t) - 1.0);
     const double phase = 0.1 * s;  // 63 s a round
-    return {4.2 - 2.2 * std::cos(phase), 2.45 + 0.5 * std::sin(2 * phase) * std::sin(phase), 0.8 * std::sin(1.3 * phase)};
+    return {4.2 - 2.2 * std::cos(phase), 2.45 + 0.5 * std::sin(2 * phase) * std::sin(phase),
+            0.8 * std::sin(1.3 * phase)};
   }
 
   static Pose2 start() { return world_T_robot(time_at_s(0)); }
@@ -29,11 +31,13 @@ class Drive {
   void imu_until(double t_s) {
     for (; imu_s_ <= t_s; imu_s_ += 0.01) {
       const double yaw = world_T_robot(time_at_s(imu_s_)).yaw + 1.0 + imu_drift_radps * imu_s_;
-      slam.add(ImuSample{time_at_s(imu_s_), Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()))});
+      slam.add(
+          ImuSample{time_at_s(imu_s_), Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()))});
     }
   }
   void odometry(double t_s, const Pose2& odom_T_start = {5, 5, 1}) {
-    slam.add(OdometrySample{time_at_s(t_s), odom_T_start * start().inverse() * world_T_robot(time_at_s(t_s))});
+    slam.add(
+        OdometrySample{time_at_s(t_s), odom_T_start * start().inverse() * world_T_robot(time_at_s(t_s))});
   }
 
   /// How far a result is off the truth: the map's frame is the robot's at the first scan.
@@ -136,7 +140,8 @@ TEST(Slam, SurvivesASecondWithoutScans) {
 }
 
 TEST(Slam, PutsLidarsThatSitAnyhowWhereTheyBelong) {
-  for (const LidarMount& mount : {LidarMount{{0.12, -0.03, 1.1}, false}, LidarMount{{-0.05, 0.02, -2.9}, true}}) {
+  for (const LidarMount& mount :
+       {LidarMount{{0.12, -0.03, 1.1}, false}, LidarMount{{-0.05, 0.02, -2.9}, true}}) {
     Drive drive;
     for (int i = 0; i < 120; ++i) {
       drive.scan(0.1 * i, mount);
@@ -153,7 +158,9 @@ TEST(Slam, DrawsAMapThatAgreesWithTheWorld) {
   drive.worst(true);
   const Pose2 map_T_world = Drive::start().inverse();
   const GridSnapshot map = drive.slam.global_map().snapshot();
-  const auto state_at = [&](double x, double y) { return map.state(cell_at(map_T_world * Vector2(x, y), map.cell_size_m())); };
+  const auto state_at = [&](double x, double y) {
+    return map.state(cell_at(map_T_world * Vector2(x, y), map.cell_size_m()));
+  };
   EXPECT_EQ(state_at(2.5, 2.5), CellState::kFree);
   EXPECT_EQ(state_at(3.8, 2.0), CellState::kFree);
   EXPECT_EQ(state_at(4.5, 1.0), CellState::kOccupied) << "the wall between the rooms";
@@ -175,7 +182,12 @@ TEST(Slam, GivesTheSameResultsForTheSameSamples) {
 
 TEST(Slam, BeginsNoLocalMapWhileTheRobotStands) {
   Drive drive;
-  const Scan scan = look(drive.world, {}, [](Time) { return Pose2{2, 2, 0}; }, drive.lidar, drive.random);
+  const Scan scan = look(
+      drive.world, {},
+      [](Time) {
+        return Pose2{2, 2, 0};
+      },
+      drive.lidar, drive.random);
   for (int i = 0; i < 200; ++i) {
     Scan again = scan;
     again.stamp = time_at_s(0.1 * i);
@@ -224,7 +236,8 @@ TEST(Slam, LivesThroughEmptyBlindAndHugeScans) {
   empty.stamp = time_at_s(0.1);
   blind.stamp = time_at_s(0.2);
   huge.stamp = time_at_s(0.3);
-  for (int i = 0; i < 100; ++i) blind.beams.push_back({0.01F * static_cast<float>(i), i % 2 ? INFINITY : NAN, 0});
+  for (int i = 0; i < 100; ++i)
+    blind.beams.push_back({0.01F * static_cast<float>(i), i % 2 ? INFINITY : NAN, 0});
   for (int i = 0; i < 1000000; ++i) huge.beams.push_back({static_cast<float>(i * kTwoPi / 1e6), 3.0F, 0});
   for (const Scan& s : {empty, blind, huge}) drive.slam.add(s);
   drive.scan(0.4);
@@ -242,7 +255,8 @@ TEST(Slam, SaysThatAScanDoesNotMatchAndStartsAnewWhenNoneDoes) {
   DrawnWorld elsewhere;
   elsewhere.add_box(-0.4, -0.5, 0.45, 0.4);
   for (int i = 30; i < 80; ++i) {
-    drive.slam.add(look(elsewhere, time_at_s(0.1 * i), [](Time) { return Pose2{}; }, drive.lidar, drive.random));
+    drive.slam.add(look(
+        elsewhere, time_at_s(0.1 * i), [](Time) { return Pose2{}; }, drive.lidar, drive.random));
   }
   int unmatched = 0, matched_after = 0;
   while (auto r = drive.slam.next(true)) {
@@ -262,9 +276,11 @@ TEST(Slam, SkipsScansTakenInAFastTurn) {
   const auto turning = [](Time t) { return Pose2{2, 2, 3.0 * seconds_of(t)}; };
   for (int i = 0; i < 100; ++i) {
     const double yaw = 0.03 * i;
-    slam.add(ImuSample{time_at_s(0.01 * i), Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()))});
+    slam.add(
+        ImuSample{time_at_s(0.01 * i), Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()))});
   }
-  for (int i = 1; i < 8; ++i) slam.add(look(two_rooms(), time_at_s(0.1 * i), turning, {.beams = 400}, random));
+  for (int i = 1; i < 8; ++i)
+    slam.add(look(two_rooms(), time_at_s(0.1 * i), turning, {.beams = 400}, random));
   int inserted = 0, seen = 0;
   while (auto r = slam.next(true)) inserted += r->inserted ? 1 : 0, ++seen;
   EXPECT_EQ(seen, 7);
@@ -283,6 +299,13 @@ TEST(Slam, StaysWithinItsChunks) {
   EXPECT_GT(drive.slam.counters()["map.cells_refused"], 0U);
 }
 
+TEST(Slam, RefusesRaysOfTooManyCells) {
+  SlamConfig config;
+  config.cell_size_m = 0.005;
+  config.trusted_range_m = 50;
+  EXPECT_THROW(Slam{config}, InputError);
+}
+
 /// Notes what the stages are called.
 struct Names : StageWatch {
   std::vector<std::string> names;
@@ -293,7 +316,12 @@ TEST(Slam, TellsItsStages) {
   Names names;
   Slam slam({}, &names);
   std::mt19937 random(1);
-  slam.add(look(two_rooms(), {}, [](Time) { return Pose2{2, 2, 0}; }, {}, random));
+  slam.add(look(
+      two_rooms(), {},
+      [](Time) {
+        return Pose2{2, 2, 0};
+      },
+      {}, random));
   ASSERT_TRUE(slam.next(true));
   EXPECT_EQ(names.names, (std::vector<std::string>{"passes", "match", "insert", ""}));
 }
