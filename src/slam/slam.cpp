@@ -150,7 +150,8 @@ bool Slam::may_insert(const Scan& scan, const Fix& fix) {
 }
 
 CorrectedScan Slam::correct(const Scan& scan) {
-  const std::vector<Ray> rays = clamp_pass(scan, config_);
+  std::vector<Ray> rays = clamp_pass(scan, config_);
+  if (!motion_.imu().empty()) level_pass(scan, motion_.tilt_around(), {}, rays);
   CorrectedScan corrected = egomotion_pass(scan, rays, motion_.motion_around(reference_time(scan)));
   stray_ray_pass(corrected);
   return corrected;
