@@ -24,8 +24,8 @@ ceres::Solver::Options solver_options(int max_iterations) {
   options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   options.num_threads = 1;
   options.max_num_iterations = max_iterations;
-  options.function_tolerance = 1e-9;
-  options.parameter_tolerance = 1e-9;
+  options.function_tolerance = 1e-8;
+  options.parameter_tolerance = 1e-8;
   options.logging_type = ceres::SILENT;
   return options;
 }
@@ -69,7 +69,7 @@ bool PoseGraph::solve_once(PoseGraphSummary& summary) {
   }
   ceres::Solver::Summary solved;
   ceres::Solve(solver_options(config_.max_iterations), &problem, &solved);
-  if (!solved.IsSolutionUsable()) return false;
+  if (!solved.IsSolutionUsable() || !std::isfinite(solved.final_cost)) return false;
   for (const auto& [id, block] : blocks) {
     if (!is_finite(block)) return false;
     nodes_[id] = {block[0], block[1], wrap_angle(block[2])};
