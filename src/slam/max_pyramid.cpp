@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dynslam {
 namespace {
@@ -12,6 +13,9 @@ namespace {
 constexpr double kRidgeSigma = 0.7;
 /// Samples along the side of a base cell that decide whether it is free.
 constexpr int kSamples = 2;
+
+/// Height of the ridge so many base cells off.
+double ridge(double off) { return std::exp(-off * off / (2 * kRidgeSigma * kRidgeSigma)); }
 
 bool is_finite(const CloudPoint& p) { return std::isfinite(p.x_m) && std::isfinite(p.y_m); }
 
@@ -87,17 +91,21 @@ void MaxPyramid::measure(const FinishedMap& map) {
 
 /// A base cell is free when most of it is.
 void MaxPyramid::draw_free(const FinishedMap& map) {
+  constexpr int kBias = 1 << 24;  // of what is cut off below: truncation is then floor
   Plane& base = planes_[0];
-  const double step = cell_size_m_ / kSamples;
-  const double c = std::cos(map.drawn_T_origin.yaw), s = std::sin(map.drawn_T_origin.yaw);
+  const double scale = cell_size_m_ / map.cell_size_m;  // from here on in cells of the map
+  const double c = scale * std::cos(map.drawn_T_origin.yaw), s = scale * std::sin(map.drawn_T_origin.yaw);
+  const double x0 = map.drawn_T_origin.x / map.cell_size_m + kBias,
+               y0 = map.drawn_T_origin.y / map.cell_size_m + kBias;
   for (int y = 0; y < base.height; ++y) {
     for (int x = 0; x < base.width; ++x) {
       int free = 0;
       for (int k = 0; k < kSamples * kSamples; ++k) {
-        const double px = (first_.x + x) * cell_size_m_ + (k % kSamples + 0.5) * step,
-                     py = (first_.y + y) * cell_size_m_ + (k / kSamples + 0.5) * step;
-        const Vector2 drawn(map.drawn_T_origin.x + c * px - s * py, map.drawn_T_origin.y + s * px + c * py);
-        free += map.free.test(cell_at(drawn, map.cell_size_m)) ? 1 : 0;
+        const double px = first_.x + x + (k % kSamples + 0.5) / kSamples,
+                     py = first_.y + y + (k / kSamples + 0.5) / kSamples;
+        const CellIndex drawn{static_cast<int>(x0 + c * px - s * py) - kBias,
+                              static_cast<int>(y0 + s * px + c * py) - kBias};
+        free += map.free.test(drawn) ? 1 : 0;
       }
       if (2 * free <= kSamples * kSamples) continue;
       base.bytes[static_cast<std::size_t>(base.offset(x, y))] = 0;
@@ -115,12 +123,12 @@ void MaxPyramid::draw_surfaces(const FinishedMap& map) {
     const double px = p.x_m / cell_size_m_ - first_.x, py = p.y_m / cell_size_m_ - first_.y;
     const int x0 = static_cast<int>(px), y0 = static_cast<int>(py);
     known_.set({x0, y0});
-    for (int y = y0 - 1; y <= y0 + 1; ++y) {
-      for (int x = x0 - 1; x <= x0 + 1; ++x) {
-        const double dx = x + 0.5 - px, dy = y + 0.5 - py;
-        const double near = std::exp(-(dx * dx + dy * dy) / (2 * kRidgeSigma * kRidgeSigma));
-        std::uint8_t& byte = base.bytes[static_cast<std::size_t>(base.offset(x, y))];
-        byte = std::max(byte, static_cast<std::uint8_t>(std::lround(255 * near)));
+    for (int i = 0; i < 3; ++i) {
+      const double in_row = ridge(y0 - 0.5 + i - py);
+      for (int k = 0; k < 3; ++k) {
+        const double near = in_row * ridge(x0 - 0.5 + k - px);
+        std::uint8_t& byte = base.bytes[static_cast<std::size_t>(base.offset(x0 - 1 + k, y0 - 1 + i))];
+        byte = std::max(byte, static_cast<std::uint8_t>(255 * near + 0.5));
       }
     }
   }
@@ -130,12 +138,11 @@ void MaxPyramid::draw_surfaces(const FinishedMap& map) {
 void MaxPyramid::clear_around_surfaces(const FinishedMap& map, double clear_m) {
   const int reach = static_cast<int>(std::ceil(clear_m / cell_size_m_));
   const double reach2 = clear_m * clear_m / (cell_size_m_ * cell_size_m_);
-  CellIndex last{-1, -1};
+  std::vector<std::uint8_t> done(planes_[0].bytes.size(), 0);
   for (const CloudPoint& p : map.cloud) {
     if (!is_finite(p)) continue;
     const CellIndex at = cell_of({p.x_m, p.y_m});
-    if (at == last) continue;
-    last = at;
+    if (std::exchange(done[static_cast<std::size_t>(planes_[0].offset(at.x, at.y))], 1) != 0) continue;
     for (int dy = -reach; dy <= reach; ++dy) {
       for (int dx = -reach; dx <= reach; ++dx) {
         const CellIndex c{at.x + dx, at.y + dy};

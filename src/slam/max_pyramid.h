@@ -36,6 +36,19 @@ class MaxPyramid {
   static constexpr int kLanes = 16;  ///< cells right of a position that a load may read
   static constexpr int kLevels = 5;
 
+  /// One level, with a rim of unknown cells wide enough for loads that lie beside it.
+  struct Plane {
+    static constexpr int kLeft = kLanes + 1;  ///< a cell that reaches into the map from outside, and a load
+    static constexpr int kBelow = 2;
+    int width = 0, height = 0;  ///< without the rim
+    std::vector<std::uint8_t> bytes;
+
+    int stride() const { return kLeft + width + kLanes; }
+    std::int32_t offset(std::int32_t x, std::int32_t y) const {
+      return (std::clamp(y, -kBelow, height) + kBelow) * stride() + std::clamp(x, -kLeft, width) + kLeft;
+    }
+  };
+
   explicit MaxPyramid(const FinishedMap& map, const MaxPyramidConfig& config = {});
 
   double cell_size_m() const { return cell_size_m_; }
@@ -44,6 +57,7 @@ class MaxPyramid {
   int width() const { return planes_[0].width; }  ///< base cells
   int height() const { return planes_[0].height; }
 
+  const Plane& plane(int level) const { return planes_[static_cast<std::size_t>(level)]; }
   const std::uint8_t* data(int level) const { return plane(level).bytes.data(); }
   /// Where in data(level) the cell is; any cell will do, and 16 bytes from there can be read. Beyond the map
   /// everything is unknown.
@@ -61,21 +75,7 @@ class MaxPyramid {
   }
   std::size_t bytes() const;
 
-  /// One level, with a rim of unknown cells wide enough for loads that lie beside it.
-  struct Plane {
-    static constexpr int kLeft = kLanes + 1;  ///< a cell that reaches into the map from outside, and a load
-    static constexpr int kBelow = 2;
-    int width = 0, height = 0;  ///< without the rim
-    std::vector<std::uint8_t> bytes;
-
-    int stride() const { return kLeft + width + kLanes; }
-    std::int32_t offset(std::int32_t x, std::int32_t y) const {
-      return (std::clamp(y, -kBelow, height) + kBelow) * stride() + std::clamp(x, -kLeft, width) + kLeft;
-    }
-  };
-
  private:
-  const Plane& plane(int level) const { return planes_[static_cast<std::size_t>(level)]; }
   void measure(const FinishedMap& map);
   void draw_free(const FinishedMap& map);
   void draw_surfaces(const FinishedMap& map);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -12,20 +13,20 @@ namespace {
 constexpr int kLanes = MaxPyramid::kLanes;
 /// A yaw lattice finer than this buys nothing and would not end.
 constexpr int kMostHalfYaws = 4000;
+constexpr int kNoYaw = std::numeric_limits<int>::min();
 
 int cells(double metres, double cell_size_m) {
   return static_cast<int>(std::ceil(std::clamp(metres / cell_size_m - 1e-9, 0.0, 1e5)));
 }
 
+/// Cells beside a level that a shift within the window and a load can reach from a cell next to it.
+int rim(int half, int level) { return (2 * half >> level) + 2 * kLanes; }
+
 }  // namespace
 
 PyramidSearch::PyramidSearch(const MaxPyramid& target, std::span<const Vector2> points_m, const Pose2& guess,
                              const SearchWindow& window, const PyramidSearchConfig& config)
-    : target_(target),
-      points_(points_m),
-      guess_(guess),
-      config_(config),
-      placed_yaw_(std::numeric_limits<int>::min()) {
+    : target_(target), points_(points_m), guess_(guess), config_(config), placed_yaw_(kNoYaw) {
   const double cell = target.cell_size_m();
   double farthest = cell;
   for (const Vector2& p : points_m) farthest = std::max(farthest, p.norm());
@@ -35,7 +36,40 @@ PyramidSearch::PyramidSearch(const MaxPyramid& target, std::span<const Vector2> 
   half_yaws_ = std::min(cells(std::min(window.half_yaw_rad, kPi), yaw_step_rad_), kMostHalfYaws);
   while (top_level_ + 1 < MaxPyramid::kLevels && (2 * half_x_ + 1) >> top_level_ >= kLanes) ++top_level_;
   placed_.resize(points_m.size());
-  offsets_.resize(points_m.size());
+  planes_.resize(static_cast<std::size_t>(top_level_) + 1);
+  for (int level = 0; level <= top_level_; ++level) add_rim(level);
+}
+
+void PyramidSearch::add_rim(int level) {
+  RimmedPlane& plane = planes_[static_cast<std::size_t>(level)];
+  const MaxPyramid::Plane& from = target_.plane(level);
+  const int rim_x = rim(half_x_, level), rim_y = rim(half_y_, level);
+  plane.stride = from.width + 2 * rim_x;
+  plane.yaw = kNoYaw;
+  plane.offsets.resize(points_.size());
+  const int rows = from.height + 2 * rim_y;
+  plane.bytes.assign(static_cast<std::size_t>(plane.stride) * static_cast<std::size_t>(rows),
+                     target_.unknown_worth());
+  for (int y = -1; y < from.height; ++y) {
+    std::memcpy(&plane.bytes[static_cast<std::size_t>((y + rim_y) * plane.stride + rim_x - 1)],
+                &from.bytes[static_cast<std::size_t>(from.offset(-1, y))],
+                static_cast<std::size_t>(from.width) + 1);
+  }
+}
+
+/// Where the points at the yaw at hand lie when shifted by the least that the window has; all other shifts
+/// are one step for all. A point that meets nothing but unknown cells stays in the rim.
+void PyramidSearch::find_offsets(int level) {
+  RimmedPlane& plane = planes_[static_cast<std::size_t>(level)];
+  if (plane.yaw == placed_yaw_) return;
+  plane.yaw = placed_yaw_;
+  const int width = target_.plane(level).width, height = target_.plane(level).height;
+  const int rim_x = rim(half_x_, level), rim_y = rim(half_y_, level);
+  for (std::size_t i = 0; i < placed_.size(); ++i) {
+    const int x = std::clamp((placed_[i].x - half_x_) >> level, -rim_x, width);
+    const int y = std::clamp((placed_[i].y - half_y_) >> level, -rim_y, height);
+    plane.offsets[i] = (y + rim_y) * plane.stride + x + rim_x;
+  }
 }
 
 Pose2 PyramidSearch::pose_of(const LatticePose& p) const {
@@ -67,10 +101,10 @@ void PyramidSearch::place_points(int yaw) {
 /// Bounds of 16 blocks at the yaw at hand.
 PyramidSearch::Strip PyramidSearch::scored(int x, int y, int level) {
   ++result_.nodes;
-  for (std::size_t i = 0; i < placed_.size(); ++i) {
-    offsets_[i] = target_.offset(level, (placed_[i].x + x) >> level, (placed_[i].y + y) >> level);
-  }
-  Strip strip{x, y, placed_yaw_, level, score_16_shifts(target_.data(level), offsets_)};
+  find_offsets(level);
+  const RimmedPlane& plane = planes_[static_cast<std::size_t>(level)];
+  const int shift = ((y + half_y_) >> level) * plane.stride + ((x + half_x_) >> level);
+  Strip strip{x, y, placed_yaw_, level, score_16_shifts(plane.bytes.data() + shift, plane.offsets)};
   close_lanes(strip);
   return strip;
 }

@@ -72,7 +72,17 @@ class PyramidSearch {
     std::uint32_t most() const { return *std::max_element(bound.begin(), bound.end()); }
   };
 
+  /// A level of the target with a rim as wide as the window, so that no shift of a point leaves it.
+  struct RimmedPlane {
+    std::vector<std::uint8_t> bytes;
+    int stride = 0;
+    std::vector<std::int32_t> offsets;  ///< of the points at the window's lower left shift
+    int yaw = 0;                        ///< for which
+  };
+
+  void add_rim(int level);
   void place_points(int yaw);
+  void find_offsets(int level);
   Strip scored(int x, int y, int level);
   void close_lanes(Strip& strip) const;
   bool is_too_near(const Strip& strip, int lane) const;
@@ -90,8 +100,8 @@ class PyramidSearch {
   double yaw_step_rad_ = 0.0;
 
   int placed_yaw_ = 0;
-  std::vector<CellIndex> placed_;  ///< the points' base cells at the yaw at hand, unshifted
-  std::vector<std::int32_t> offsets_;
+  std::vector<CellIndex> placed_;         ///< the points' base cells at the yaw at hand, unshifted
+  std::vector<RimmedPlane> planes_;       ///< of each level
   std::uint32_t floor_ = 0;               ///< a pose must score more than this
   std::optional<LatticePose> found_;      ///< best of the pass at hand
   std::optional<LatticePose> keep_away_;  ///< second pass: not near this one

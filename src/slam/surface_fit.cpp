@@ -14,8 +14,8 @@ constexpr double kReachCells = 4.0;
 constexpr int kLeastNeighbours = 4;
 /// Variance across a line over that along it: more is no line.
 constexpr double kMostBreadth = 0.3;
-constexpr int kMostIterations = 12;
-constexpr double kSettled = 2e-5;  ///< m, rad
+constexpr int kMostIterations = 8;
+constexpr double kSettled = 0.02;  ///< cells that the last step may be long
 /// Points next to each other err together: each counts as this much of an independent one.
 constexpr double kEvidence = 0.3;
 /// How strongly a direction that the surfaces leave open is held where it was: as by so many points.
@@ -126,7 +126,8 @@ SurfaceFit::Result SurfaceFit::fit(std::span<const Vector2> points_m, const Pose
     pose = {pose.x + step.x(), pose.y + step.y(), wrap_angle(pose.yaw + step.z())};
     const bool strayed = !is_finite(pose) || (pose.translation() - start.translation()).norm() > 2 * reach_m_;
     if (strayed || sums.weight <= 0) return result;
-    if (step.cwiseAbs().maxCoeff() < kSettled) break;
+    const double moved = std::max(step.head<2>().norm(), std::abs(step.z()) * std::sqrt(arm2));
+    if (moved < kSettled * cell_size_m_) break;
   }
   const double variance = sums.squares / sums.weight;
   const double least = 0.25 * cell_size_m_ * cell_size_m_;
