@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "slam/ridges.h"
+#include "slam/map_sight.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 
 namespace dynslam {
 namespace {
@@ -86,37 +87,85 @@ bool is_surface(std::uint16_t smoothed, std::uint8_t hit, std::uint8_t miss) {
   return smoothed >= least && hit >= lh && den * hit >= num * miss;
 }
 
-void find_in_chunk(const SmoothChunk& smooth, const Chunk& chunk, ChunkIndex index, std::vector<Crest>& crests) {
-  const CellIndex first = first_cell(index);
+/// From the middle of a cell to the top of the crest over it, in cells; nothing where it is not under one.
+/// The wall runs along the axis on which the hits fall off slower.
+std::optional<Eigen::Vector2f> crest_at(const std::uint16_t* s) {
+  const bool across_x = s[-kReach] + s[kReach] <= s[-kReach * kSide] + s[kReach * kSide];
+  const std::ptrdiff_t step = across_x ? 1 : kSide;
+  if (!is_crest(s, step)) return std::nullopt;
+  const float off = offset_of_top(s, step);
+  return across_x ? Eigen::Vector2f(off, 0.0F) : Eigen::Vector2f(0.0F, off);
+}
+
+std::uint64_t& word_at(CellBitmap& bits, CellIndex first) {
+  return bits.row(first.y - bits.first().y)[(first.x >> kChunkBits) - bits.box().min.x];
+}
+
+/// One bit a flag; the flags are 0 or 1.
+std::uint64_t packed(const std::uint8_t (&flags)[kChunkSide]) {
+  std::uint64_t bits = 0;
+  for (int i = 0; i < kChunkSide; i += 8) {
+    std::uint64_t eight = 0;
+    for (int k = 0; k < 8; ++k) eight |= std::uint64_t{flags[i + k]} << (8 * k);
+    // Gathers the lowest bits of eight bytes in the highest byte.
+    bits |= ((eight * 0x0102040810204080ULL) >> 56) << i;
+  }
+  return bits;
+}
+
+/// Fills in what a chunk without any hits around says: free where there are misses.
+void read_empty_chunk(const Chunk& chunk, CellIndex first, Sight& sight) {
+  std::uint8_t seen[kChunkSide];
   for (int y = 0; y < kChunkSide; ++y) {
-    for (int x = 0; x < kChunkSide; ++x) {
-      const std::uint16_t* s = &smooth.at(x, y);
-      if (!is_surface(*s, chunk.hit[y][x], chunk.miss[y][x])) continue;
-      // The wall runs along the other axis than the one on which the hits fall off faster.
-      const bool across_x = s[-2] + s[2] <= s[-2 * kSide] + s[2 * kSide];
-      const std::ptrdiff_t step = across_x ? 1 : kSide;
-      if (!is_crest(s, step)) continue;
-      const float off = offset_of_top(s, step);
-      crests.push_back({.cell = {first.x + x, first.y + y},
-                        .dx = across_x ? off : 0.0F,
-                        .dy = across_x ? 0.0F : off,
-                        .hit = chunk.hit[y][x]});
+    for (int x = 0; x < kChunkSide; ++x) seen[x] = chunk.miss[y][x] > 0;
+    word_at(sight.seen_through, {first.x, first.y + y}) = packed(seen);
+  }
+}
+
+void read_row(const SmoothChunk& smooth, const Chunk& chunk, int y, CellIndex first, Sight& sight) {
+  static const int doubt = P("DOUBT", 48) * 16;
+  const std::uint8_t *hit = chunk.hit[y], *miss = chunk.miss[y];
+  const std::uint16_t* s = &smooth.at(0, y);
+  std::uint8_t seen[kChunkSide], thick[kChunkSide], doubtful[kChunkSide], surface[kChunkSide];
+  for (int x = 0; x < kChunkSide; ++x) {
+    seen[x] = (miss[x] > 0) & (miss[x] >= hit[x]);
+    thick[x] = hit[x] > miss[x];
+    doubtful[x] = s[x] >= doubt;
+    surface[x] = is_surface(s[x], hit[x], miss[x]);
+  }
+  std::uint64_t crest = 0;
+  for (std::uint64_t left = packed(surface); left != 0; left &= left - 1) {
+    const int x = std::countr_zero(left);
+    if (const auto c = crest_at(s + x)) {
+      crest |= std::uint64_t{1} << x;
+      sight.crests.push_back({{first.x + x, first.y}, c->x(), c->y(), hit[x]});
     }
   }
+  word_at(sight.crest, first) = crest;
+  word_at(sight.seen_through, first) = packed(seen) & ~crest;
+  word_at(sight.thick, first) = packed(thick) & ~crest;
+  word_at(sight.doubtful, first) = packed(doubtful) & packed(seen) & ~crest;
 }
 
 }  // namespace
 
-std::vector<Crest> find_crests(const ChunkedGrid& grid) {
-  std::vector<Crest> crests;
+Sight sight_of(const ChunkedGrid& grid) {
+  Sight sight;
+  for (CellBitmap* b : {&sight.crest, &sight.seen_through, &sight.thick, &sight.doubtful}) b->reset(grid.box());
   SmoothChunk smooth;
-  for (std::int32_t y = grid.box().min.y; y <= grid.box().max.y; ++y) {
-    for (std::int32_t x = grid.box().min.x; x <= grid.box().max.x; ++x) {
-      const Chunk* chunk = grid.find({x, y});
-      if (chunk && smooth.load(grid, {x, y})) find_in_chunk(smooth, *chunk, {x, y}, crests);
+  for (std::int32_t cy = grid.box().min.y; cy <= grid.box().max.y; ++cy) {
+    for (std::int32_t cx = grid.box().min.x; cx <= grid.box().max.x; ++cx) {
+      const Chunk* chunk = grid.find({cx, cy});
+      if (!chunk) continue;
+      const CellIndex first = first_cell({cx, cy});
+      if (!smooth.load(grid, {cx, cy})) {
+        read_empty_chunk(*chunk, first, sight);
+        continue;
+      }
+      for (int y = 0; y < kChunkSide; ++y) read_row(smooth, *chunk, y, {first.x, first.y + y}, sight);
     }
   }
-  return crests;
+  return sight;
 }
 
 }  // namespace dynslam
