@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam/clean_up.h"
 
+#include <cstdlib>
 #include <vector>
 
 #include "grid/flood_fill.h"
@@ -66,6 +67,21 @@ CellBitmap front_slopes(const CellBitmap& reached, const CellBitmap& thick) {
   return front;
 }
 
+/// The cells not seen at all and those within kRimWidth of one. Rays that graze a wall end far apart along it, and what
+/// lies between counts as passed, wall and all: the edge of what was seen proves nothing.
+CellBitmap rim_of_unseen(const Sight& sight) {
+  CellBitmap rim;
+  rim.reset(sight.crest.box());
+  for (int r = 0; r < rim.rows(); ++r) {
+    for (int w = 0; w < rim.words_per_row(); ++w) {
+      rim.row(r)[w] = ~(sight.crest.row(r)[w] | sight.seen_through.row(r)[w] | sight.thick.row(r)[w]);
+    }
+  }
+  static const int n = std::getenv("RIM") ? std::atoi(std::getenv("RIM")) : 2;
+  for (int step = 0; step < n; ++step) rim = grown(rim, true);
+  return rim;
+}
+
 std::vector<CellIndex> cells_of(std::span<const Vector2> points, double cell_size_m) {
   std::vector<CellIndex> cells;
   for (const Vector2& p : points) cells.push_back(cell_at(p, cell_size_m));
@@ -101,6 +117,7 @@ FinishedMap clean_up(const LocalMap& map, std::uint32_t id, Time ended) {
   keep_only(out.occupied, grown(front, true));
   out.free = reached;
   take_out(out.free, sight.doubtful);
+  take_out(out.free, rim_of_unseen(sight));
   // What hid the crest from view was not there: the ray had to pass it.
   keep_only(front, grown(grown(out.occupied, true), true));
   add_all(out.free, front);
