@@ -58,7 +58,7 @@ nlohmann::json report(const ReplayResult& result) {
           {"stages_ms", result.stages_ms},
           {"local_maps", result.local_maps},
           {"active_local_maps", result.local_maps_active},
-          {"loop_closures", 0},
+          {"loop_closures", result.loop_closures},
           {"map",
            {{"cell_size_m", result.map.cell_size_m()},
             {"chunks", result.map.chunk_count()},

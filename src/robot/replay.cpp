@@ -71,9 +71,11 @@ ReplayResult replay(Recording& recording, const SlamConfig& config, const Replay
     if (++records % 64 == 0) progress(recording.progress(), result.trajectory_live.size());
   }
   work_off(slam, true, result);
+  slam.finish();
   progress(1.0, result.trajectory_live.size());
 
-  result.trajectory = result.trajectory_live;
+  for (const StampedFix& fix : slam.trajectory()) result.trajectory.push_back({fix.stamp, fix.map_T_robot});
+  result.loop_closures = slam.back_end().closures();
   result.map = slam.global_map().snapshot();
   result.map_bytes = slam.global_map().bytes();
   result.local_maps = slam.local_maps_begun();

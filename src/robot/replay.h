@@ -23,6 +23,7 @@ struct ReplayResult {
   std::size_t map_bytes = 0;
   std::size_t local_maps = 0;
   std::size_t local_maps_active = 0;
+  std::uint64_t loop_closures = 0;
 
   std::uint64_t inserted = 0;               ///< scans drawn into the map; the others only got a pose
   std::vector<float> scan_ms;               ///< of each scan, reading not included

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "base/pose2.h"
@@ -25,8 +27,12 @@ struct LocalMap {
         robot_positions{origin.translation()} {}
 
   ChunkedGrid grid;
+  std::uint32_t id = 0;  ///< counted up
   Pose2 map_T_origin;
-  Time begun;
+  /// Of map_T_origin, as the map before this one told it: m2, m rad, rad2. Meaningless unless is_tied.
+  Eigen::Matrix3d origin_covariance = Eigen::Matrix3d::Zero();
+  bool is_tied = false;  ///< begun at a scan that was matched against the map before
+  Time begun, ended;
   int scans = 0;          ///< that count: taken in motion
   double travel_m = 0.0;  ///< since it was begun
   std::vector<Vector2> robot_positions;  ///< where scans that count were taken, in the frame it is drawn in

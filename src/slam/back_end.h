@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "base/counters.h"
+#include "slam/finished_map.h"
+#include "slam/global_map.h"
+#include "slam/local_map.h"
+#include "slam/loop_search.h"
+#include "slam/pose_graph.h"
+#include "slam/slam_config.h"
+
+namespace dynslam {
+
+/// From complete local maps to a map of everything (thesis, figure 4.3): cleans each, looks for places seen before, lets
+/// the pose graph settle where all of them lie, and draws.
+/// Work is counted, never timed; memory depends on the building, not on the hours. One thread.
+class BackEnd {
+ public:
+  explicit BackEnd(const SlamConfig& config);
+
+  /// Takes in the next local map, in order of id.
+  void finish(const LocalMap& map);
+
+  /// What is to be put before poses of the front end that were matched against a local map: map_T_drawn. For one that is
+  /// not finished yet, that of the newest that is; for one that was retired, by the map that took its place.
+  Pose2 map_T_drawn(std::uint32_t local_map_id) const;
+
+  GlobalMap& global_map() { return global_map_; }
+  const GlobalMap& global_map() const { return global_map_; }
+  const PoseGraph& graph() const { return graph_; }
+  std::uint64_t closures() const { return closures_; }
+  const Counters& counters() const { return counters_; }
+
+ private:
+  struct Finished {
+    std::shared_ptr<const FinishedMap> map;
+    std::unique_ptr<const MaxPyramid> pyramid;
+    double reach_m = 0.0;  ///< of its farthest surface from its origin
+  };
+  /// Where a retired map went: its origin in that of one that lives, or was retired later.
+  struct Anchor {
+    std::uint32_t id = 0;
+    Pose2 anchor_T_origin;
+    Pose2 drawn_T_origin;
+  };
+  struct Candidate {
+    std::uint32_t id = 0;
+    RelativePose target_T_source;  ///< as the graph has it
+    double worth = 0.0;
+  };
+
+  void add_node(const LocalMap& map);
+  bool search_loops(const FinishedMap& source);
+  std::vector<Candidate> candidates(const FinishedMap& source) const;
+  bool try_loop(const FinishedMap& source, const Candidate& candidate);
+  void settle();
+  void retire_unneeded(std::uint32_t newest);
+  Pose2 map_T_origin(std::uint32_t id) const;
+
+  SlamConfig config_;
+  PoseGraph graph_;
+  GlobalMap global_map_;
+  std::map<std::uint32_t, Finished> maps_;
+  std::map<std::uint32_t, Anchor> retired_;
+  std::uint64_t closures_ = 0;
+  Counters counters_;
+};
+
+}  // namespace dynslam

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include "slam/front_end.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+
+namespace dynslam {
+namespace {
+
+/// How long a scan waits for an IMU that has stopped talking, counted in the time of other samples.
+constexpr Duration kImuPatience = std::chrono::milliseconds(150);
+constexpr std::size_t kMostPoints = 2000;
+/// The bitmaps of a scan grow with the square of this: 32 MiB.
+constexpr int kMostCells = 8000;
+/// Less than this since the last scan that counted: the robot stands.
+constexpr double kStanding_m = 0.02;
+constexpr double kStanding_rad = 0.01;
+/// After so many scans that the map does not explain, a new map begins where motion sensors say the robot is.
+constexpr int kMostUnmatched = 20;
+/// Below this fit the prior is doubted; it is set aside for an answer that fits so much better.
+constexpr double kPoorFit = 0.25;
+constexpr double kClearlyBetter = 0.2;
+/// How fast the usual hit follows the scans.
+constexpr double kUsualShare = 0.2;
+
+/// What a scan has to offer for matching: its hits, in the robot's frame and in cells.
+void choose_points(const CorrectedScan& scan, double cell_size_m, std::vector<MatchPoint>& points) {
+  const double c = std::cos(scan.robot_T_lidar.yaw) / cell_size_m,
+               s = std::sin(scan.robot_T_lidar.yaw) / cell_size_m;
+  const Vector2 at = scan.robot_T_lidar.translation() / cell_size_m;
+  const std::size_t stride = 1 + scan.ends_lidar.size() / kMostPoints;
+  const double arc_cells = static_cast<double>(stride) * scan.beam_step_rad / cell_size_m;
+  points.clear();
+  for (std::size_t i = 0; i < scan.ends_lidar.size(); i += stride) {
+    const RayEnd& e = scan.ends_lidar[i];
+    if (!e.hit) continue;
+    points.push_back({static_cast<float>(at.x() + c * e.x_m - s * e.y_m),
+                      static_cast<float>(at.y() + s * e.x_m + c * e.y_m),
+                      static_cast<float>(std::min(1.0, arc_cells * e.range_m))});
+  }
+}
+
+/// Share of the points that speak for a match less the share that speak against it.
+double fit_of(const MatchResult& result) { return result.known * (2 * result.matched - 1); }
+
+/// Enough of the scan lies in space the map knows, and enough of that on what the map holds.
+bool is_believable(const MatchResult& result) { return result.known > 0.1 && result.matched > 0.4; }
+
+}  // namespace
+
+FrontEnd::FrontEnd(const SlamConfig& config, StageWatch* watch)
+    : config_(config),
+      watch_(watch),
+      matcher_({.search_half_width_m = config.search_half_width_m}) {
+  if (config.trusted_range_m > kMostCells * config.cell_size_m) {
+    throw InputError("slam.trusted_range_m: more than " + std::to_string(kMostCells) + " cells of slam.cell_size_m");
+  }
+}
+
+void FrontEnd::add(const ImuSample& sample) {
+  note_time(sample.stamp);
+  motion_.add(sample);
+}
+
+void FrontEnd::add(const OdometrySample& sample) {
+  note_time(sample.stamp);
+  motion_.add(sample);
+}
+
+void FrontEnd::add(Scan scan) {
+  note_time(scan.stamp);
+  waiting_.push_back(std::move(scan));
+}
+
+void FrontEnd::note_time(Time t) {
+  newest_sample_ = is_clock_jump(newest_sample_, t) ? t : std::max(newest_sample_, t);
+}
+
+bool FrontEnd::is_ready(const Scan& scan) const {
+  const Time end = scan.stamp + from_seconds(scan.beams.empty() ? 0.0 : scan.beams.back().time_s);
+  const bool covered = motion_.imu().empty() || motion_.imu().newest() >= end;
+  return covered || newest_sample_ > end + kImuPatience || is_clock_jump(end, newest_sample_);
+}
+
+std::optional<FrontEndResult> FrontEnd::next(bool at_end) {
+  while (!waiting_.empty() && (at_end || is_ready(waiting_.front()))) {
+    const Scan scan = std::move(waiting_.front());
+    waiting_.pop_front();
+    if (is_news(scan)) return process(scan);
+  }
+  return std::nullopt;
+}
+
+/// Whether a scan is later than the one before. A clock that was set back by a lot starts a new count.
+bool FrontEnd::is_news(const Scan& scan) {
+  if (last_stamp_ && scan.stamp <= *last_stamp_) {
+    const bool jumped = is_clock_jump(*last_stamp_, scan.stamp);
+    counters_.add(jumped ? "slam.clock_jumps" : "slam.scans_out_of_order");
+    if (!jumped) return false;
+  }
+  last_stamp_ = scan.stamp;
+  return true;
+}
+
+FrontEndResult FrontEnd::process(const Scan& scan) {
+  enter("passes");
+  const CorrectedScan corrected = correct(scan);
+  choose_points(corrected, config_.cell_size_m, points_);
+
+  enter("match");
+  const Fix fix = local_maps_.empty() ? first_fix(corrected.reference) : locate(corrected);
+  FrontEndResult result;
+  result.stamp = scan.stamp;
+  result.drawn_T_robot = pose_at_stamp(scan, corrected, fix.map_T_robot);
+  result.covariance = fix.match.covariance;
+  result.score = fix.match.score;
+  result.matched = fix.matched;
+
+  enter("insert");
+  result.inserted = may_insert(scan, fix);
+  motion_.fix(corrected.reference, fix.map_T_robot);
+  if (result.inserted) {
+    count_scan(fix, corrected.reference);
+    insert(corrected, fix.map_T_robot);
+  }
+  result.local_map_id = local_maps_.empty() ? next_id_ : local_maps_.front().id;
+  enter("");
+  return result;
+}
+
+/// Only what is known to be in its place is drawn, and no scan that was smeared by a fast turn.
+bool FrontEnd::may_insert(const Scan& scan, const Fix& fix) {
+  unmatched_in_a_row_ = fix.matched ? 0 : unmatched_in_a_row_ + 1;
+  if (!fix.matched) counters_.add("slam.scans_unmatched");
+  if (unmatched_in_a_row_ > kMostUnmatched) {
+    counters_.add("slam.times_lost");
+    complete_all();
+    unmatched_in_a_row_ = 0;
+  }
+  const bool takes_time = !scan.beams.empty() && scan.beams.back().time_s != scan.beams.front().time_s;
+  if (takes_time && std::abs(motion_.yaw_rate(reference_time(scan))) > config_.skip_yaw_rate_radps) {
+    counters_.add("slam.scans_skipped_turning");
+    return false;
+  }
+  return (fix.matched || local_maps_.empty()) && !points_.empty();
+}
+
+CorrectedScan FrontEnd::correct(const Scan& scan) {
+  std::vector<Ray> rays = clamp_pass(scan, config_);
+  if (!motion_.imu().empty()) level_pass(scan, motion_.tilt_around(), {}, rays);
+  CorrectedScan corrected = egomotion_pass(scan, rays, motion_.motion_around(reference_time(scan)));
+  stray_ray_pass(corrected);
+  return corrected;
+}
+
+/// With no map yet, the robot is where motion sensors say, at first at the origin; a scan that shows anything
+/// will do.
+FrontEnd::Fix FrontEnd::first_fix(Time t) {
+  Fix fix;
+  fix.map_T_robot = motion_.has_fix() ? motion_.expect(t).map_T_robot : Pose2{};
+  fix.matched = !points_.empty();
+  fix.match.score = fix.matched ? 1.0 : 0.0;
+  return fix;
+}
+
+/// Where the scan was taken, by the map. A prior that the scan contradicts is set aside for a wider look;
+/// where the map does not answer, the motion sensors' word stands.
+FrontEnd::Fix FrontEnd::locate(const CorrectedScan& scan) {
+  const ChunkedGrid& map = local_maps_.front().grid;
+  MatchPrior prior = motion_.expect(scan.reference);
+  prior.usual_hit = usual_hit_;
+  Fix fix;
+  fix.match = matcher_.match(map, points_, prior);
+  if (fit_of(fix.match) < kPoorFit) {
+    MatchPrior wide = motion_.expect_without_wheels(scan.reference);
+    wide.usual_hit = usual_hit_;
+    const MatchResult other = matcher_.match(map, points_, wide);
+    if (is_believable(other) && fit_of(other) > fit_of(fix.match) + kClearlyBetter) {
+      counters_.add("slam.priors_set_aside");
+      fix.match = other;
+    }
+  }
+  fix.matched = is_believable(fix.match);
+  fix.map_T_robot = fix.matched ? fix.match.map_T_robot : prior.map_T_robot;
+  if (fix.matched) usual_hit_ += (usual_hit_ == 0 ? 1.0 : kUsualShare) * (fix.match.mean_hit - usual_hit_);
+  return fix;
+}
+
+void FrontEnd::begin_local_map(const Fix& fix, Time t) {
+  local_maps_.emplace_back(config_.cell_size_m, static_cast<std::size_t>(config_.max_chunks), fix.map_T_robot, t);
+  local_maps_.back().id = next_id_++;
+  local_maps_.back().origin_covariance = fix.match.covariance;
+  local_maps_.back().is_tied = local_maps_.size() > 1;
+}
+
+void FrontEnd::complete_all() {
+  for (LocalMap& m : local_maps_) complete_.push_back(std::move(m));
+  local_maps_.clear();
+}
+
+std::optional<LocalMap> FrontEnd::take_complete() {
+  if (complete_.empty()) return std::nullopt;
+  LocalMap map = std::move(complete_.front());
+  complete_.pop_front();
+  return map;
+}
+
+/// Keeps two local maps going, half a map apart, so that no scan is matched against an empty one. Scans taken
+/// standing are drawn but do not count.
+void FrontEnd::count_scan(const Fix& fix, Time t) {
+  const Pose2& map_T_robot = fix.map_T_robot;
+  const Pose2 moved = last_counted_.inverse() * map_T_robot;
+  const double distance = moved.translation().norm();
+  if (local_maps_.empty()) {
+    begin_local_map(fix, t);
+  } else if (distance < kStanding_m && std::abs(moved.yaw) < kStanding_rad) {
+    return;
+  }
+  last_counted_ = map_T_robot;
+  for (LocalMap& m : local_maps_) {
+    m.scans += 1;
+    m.travel_m += m.scans > 1 ? distance : 0.0;
+    m.robot_positions.push_back(map_T_robot.translation());
+    m.ended = t;
+  }
+  const LocalMap& older = local_maps_.front();
+  if (older.scans >= config_.scans_per_local_map || older.travel_m >= config_.travel_per_local_map_m) {
+    if (local_maps_.size() > 1) {
+      complete_.push_back(std::move(local_maps_.front()));
+      local_maps_.pop_front();
+    }
+  }
+  const LocalMap& oldest = local_maps_.front();
+  const bool half = 2 * oldest.scans >= config_.scans_per_local_map ||
+                    2 * oldest.travel_m >= config_.travel_per_local_map_m;
+  if (half && local_maps_.size() < 2) begin_local_map(fix, t);
+}
+
+void FrontEnd::insert(const CorrectedScan& scan, const Pose2& map_T_robot) {
+  const double max_wedge = std::min(2.5 * scan.beam_step_rad, radians(5.0));
+  const ScanFootprint& footprint =
+      free_space_.trace(map_T_robot * scan.robot_T_lidar, scan.ends_lidar, max_wedge, config_.cell_size_m);
+  for (LocalMap& m : local_maps_) m.grid.apply(footprint);
+}
+
+/// The scan's pose is that of its middle; its stamp is that of its first beam, a few centimetres of way
+/// earlier.
+Pose2 FrontEnd::pose_at_stamp(const Scan& scan, const CorrectedScan& corrected, const Pose2& map_T_robot) const {
+  const Pose2 back = motion_.motion_around(corrected.reference)(scan.stamp);
+  Pose2 at = map_T_robot * back;
+  if (motion_.has_fix() && motion_.last_time() <= scan.stamp && corrected.reference > motion_.last_time()) {
+    const double share =
+        to_seconds(scan.stamp - motion_.last_time()) / to_seconds(corrected.reference - motion_.last_time());
+    const Pose2 between = interpolate(motion_.last_pose(), map_T_robot, share);
+    at.x = between.x;
+    at.y = between.y;
+  }
+  return at;
+}
+
+Counters FrontEnd::counters() const {
+  Counters all = counters_;
+  const auto add = [&](std::string_view name, std::uint64_t n) {
+    if (n > 0) all.add(name, n);
+  };
+  add("imu.spikes_smoothed", motion_.imu().spikes_smoothed());
+  add("imu.samples_out_of_order", motion_.imu().out_of_order());
+  add("odometry.samples_out_of_order", motion_.odometry().out_of_order());
+  return all;
+}
+
+}  // namespace dynslam

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "base/counters.h"
+#include "base/imu_sample.h"
+#include "base/odometry.h"
+#include "base/scan.h"
+#include "grid/chunked_grid.h"
+#include "grid/free_space.h"
+#include "slam/clock_jump.h"
+#include "slam/local_map.h"
+#include "slam/motion_model.h"
+#include "slam/passes.h"
+#include "slam/scan_matcher.h"
+#include "slam/slam_config.h"
+#include "slam/stage_watch.h"
+
+namespace dynslam {
+
+/// What became of a scan, in the front end's continuous frame: that in which local maps are drawn.
+struct FrontEndResult {
+  Time stamp;
+  Pose2 drawn_T_robot;             ///< at the stamp
+  std::uint32_t local_map_id = 0;  ///< of the map it was matched against
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  double score = 0.0;     ///< as MatchResult; 1 for the first scan
+  bool matched = false;   ///< false: the map did not answer and the pose is what motion sensors say
+  bool inserted = false;  ///< drawn into the local maps
+};
+
+/// From sensor samples to poses and local maps (thesis, figure 4.2). Its frame is continuous: poses are never corrected
+/// afterwards, they drift. What the drift was, the back end finds.
+///
+/// Samples go in as they arrive. A scan waits until the IMU has told of its whole turn, or has fallen silent;
+/// then `next` takes it through the stages. Results depend on the samples and their order alone, never on a
+/// clock. One thread.
+class FrontEnd {
+ public:
+  /// `watch`, when given, must outlive this. Throws InputError when a trusted ray is longer than 8000 cells.
+  explicit FrontEnd(const SlamConfig& config, StageWatch* watch = nullptr);
+
+  void add(const ImuSample& sample);
+  void add(const OdometrySample& sample);
+  void add(Scan scan);
+
+  /// Works off the oldest scan that is ready. `at_end`: nothing more will come, do not wait for the IMU.
+  /// A scan that is not later than the one before it is counted and passed over; a clock that was set back by
+  /// more than a second is followed.
+  std::optional<FrontEndResult> next(bool at_end = false);
+
+  /// The oldest complete local map that was not yet taken.
+  std::optional<LocalMap> take_complete();
+  /// Declares the maps at hand complete: at the end, and when the robot is lost.
+  void complete_all();
+  /// The maps at hand, oldest first.
+  const std::deque<LocalMap>& local_maps() const { return local_maps_; }
+
+  std::size_t local_maps_begun() const { return next_id_; }
+  std::size_t waiting() const { return waiting_.size(); }
+  /// Weather: what was skipped, smoothed, refused.
+  Counters counters() const;
+
+ private:
+  /// Where the robot was at a scan's reference time.
+  struct Fix {
+    Pose2 map_T_robot;
+    MatchResult match;
+    bool matched = false;  ///< the map said so
+  };
+
+  void note_time(Time t);
+  bool is_ready(const Scan& scan) const;
+  bool is_news(const Scan& scan);
+  FrontEndResult process(const Scan& scan);
+  CorrectedScan correct(const Scan& scan);
+  Fix first_fix(Time t);
+  Fix locate(const CorrectedScan& scan);
+  bool may_insert(const Scan& scan, const Fix& fix);
+  void insert(const CorrectedScan& scan, const Pose2& map_T_robot);
+  void begin_local_map(const Fix& fix, Time t);
+  void count_scan(const Fix& fix, Time t);
+  Pose2 pose_at_stamp(const Scan& scan, const CorrectedScan& corrected, const Pose2& map_T_robot) const;
+  void enter(std::string_view stage) {
+    if (watch_) watch_->enter(stage);
+  }
+
+  SlamConfig config_;
+  StageWatch* watch_;
+  MotionModel motion_;
+  ScanMatcher matcher_;
+  FreeSpace free_space_;
+  std::deque<Scan> waiting_;
+  Time newest_sample_;               ///< of any kind
+  std::vector<MatchPoint> points_;   ///< of the scan at hand
+  std::deque<LocalMap> local_maps_;  ///< one or two; the older, in front, is matched against
+  std::deque<LocalMap> complete_;    ///< not yet taken
+  std::uint32_t next_id_ = 0;
+  Pose2 last_counted_;
+  double usual_hit_ = 0.0;  ///< see MatchPrior
+  int unmatched_in_a_row_ = 0;
+  std::optional<Time> last_stamp_;
+  Counters counters_;
+};
+
+}  // namespace dynslam
