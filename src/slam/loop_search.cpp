@@ -21,19 +21,29 @@ bool is_sound(const SearchWindow& w) {
   return std::isfinite(w.half_x_m) && std::isfinite(w.half_y_m) && std::isfinite(w.half_yaw_rad);
 }
 
-/// One point for each square of `step_m` that holds any: the first of the cloud's order.
+/// One point for each square of `step_m` that holds any: their mean. (The first of them would be the lowest
+/// of a wall some cells thick, and the whole cloud half a wall off.)
 std::vector<Vector2> one_a_square(const std::vector<CloudPoint>& cloud, double step_m, const Vector2& low,
                                   const Vector2& high) {
   const auto columns = static_cast<std::size_t>((high.x() - low.x()) / step_m) + 1;
   const auto rows = static_cast<std::size_t>((high.y() - low.y()) / step_m) + 1;
-  std::vector<std::uint8_t> taken(columns * rows, 0);
+  std::vector<std::uint32_t> place(columns * rows, 0);  // in `kept`, counted from 1
   std::vector<Vector2> kept;
+  std::vector<double> count;
   for (const CloudPoint& p : cloud) {
     if (!is_finite(p)) continue;
     const auto column = static_cast<std::size_t>((p.x_m - low.x()) / step_m);
     const auto row = static_cast<std::size_t>((p.y_m - low.y()) / step_m);
-    if (std::exchange(taken[row * columns + column], 1) == 0) kept.emplace_back(p.x_m, p.y_m);
+    std::uint32_t& at = place[row * columns + column];
+    if (at == 0) {
+      kept.emplace_back(0, 0);
+      count.push_back(0);
+      at = static_cast<std::uint32_t>(kept.size());
+    }
+    kept[at - 1] += Vector2(p.x_m, p.y_m);
+    count[at - 1] += 1;
   }
+  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] /= count[i];
   return kept;
 }
 

@@ -93,7 +93,7 @@ TEST(LoopSearch, FindsRandomOffsets) {
     const Pose2 guess{pair.truth.x + 2 * unit(random), pair.truth.y + 2 * unit(random),
                       pair.truth.yaw + radians(20) * unit(random)};
     const LoopMatch match = find_loop(pyramid, pair.target, pair.source, guess, {2.0, 2.0, radians(20)});
-    EXPECT_THAT(match.target_T_source, PoseNear(pair.truth, 0.01, radians(0.3))) << said(match);
+    EXPECT_THAT(match.target_T_source, PoseNear(pair.truth, 0.005, radians(0.1))) << said(match);
     EXPECT_EQ(refusal(match), std::nullopt) << said(match);
   }
 }
@@ -104,10 +104,24 @@ TEST(LoopSearch, AgreesInShiftedAndTurnedFrames) {
     for (const Pose2& source_frame : frames) {
       const Pair pair = map_twice(two_rooms(), kFirstWay, kSecondWay, target_frame, source_frame);
       const LoopMatch match = search(pair, pair.truth * Pose2{0.5, -0.6, 0.1}, kMedium);
-      EXPECT_THAT(match.target_T_source, PoseNear(pair.truth, 0.01, radians(0.3))) << said(match);
+      EXPECT_THAT(match.target_T_source, PoseNear(pair.truth, 0.005, radians(0.1))) << said(match);
       EXPECT_EQ(refusal(match), std::nullopt) << said(match);
     }
   }
+}
+
+TEST(ThinOut, KeepsToTheMiddleOfThickWalls) {
+  std::vector<CloudPoint> wall;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = 0; x < 500; ++x)
+      wall.push_back({static_cast<float>(0.02 * x), static_cast<float>(0.02 * y), 255});
+  }
+  const std::vector<Vector2> thin = thin_out(wall, 100, 0.02);
+  EXPECT_LE(thin.size(), 100U);
+  EXPECT_GT(thin.size(), 60U);
+  double mean = 0;
+  for (const Vector2& p : thin) mean += p.y() / static_cast<double>(thin.size());
+  EXPECT_NEAR(mean, 0.0, 1e-6);
 }
 
 TEST(LoopSearch, ItsInformationFitsItsErrors) {
@@ -184,7 +198,7 @@ TEST(LoopSearch, FindsARoomWhoseFurnitureWasMoved) {
   const LoopMatch match =
       find_loop(MaxPyramid(target), target, source, truth * Pose2{0.6, -0.4, 0.1}, kMedium);
   EXPECT_EQ(refusal(match), std::nullopt) << said(match);
-  EXPECT_THAT(match.target_T_source, PoseNear(truth, 0.01, radians(0.3)));
+  EXPECT_THAT(match.target_T_source, PoseNear(truth, 0.005, radians(0.1)));
   EXPECT_GT(match.contradicted + match.contradicted_back, 0.02) << "and says that something differs";
 }
 
