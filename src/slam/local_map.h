@@ -27,8 +27,8 @@ struct LocalMap {
   ChunkedGrid grid;
   Pose2 map_T_origin;
   Time begun;
-  int scans = 0;          ///< that count: taken in motion
-  double travel_m = 0.0;  ///< since it was begun
+  int scans = 0;                         ///< that count: taken in motion
+  double travel_m = 0.0;                 ///< since it was begun
   std::vector<Vector2> robot_positions;  ///< where scans that count were taken, in the frame it is drawn in
 };
 
