@@ -17,13 +17,13 @@ constexpr int kSlopeWidth = 2;
 /// it, and what lies between two ends counts as passed, be it the wall itself.
 constexpr int kRimWidth = 2;
 
-/// The slopes of walls on the side they were seen from: a crest is not behind more than kSlopeWidth of them.
-CellBitmap front_slopes(const CellBitmap& reached, const CellBitmap& thick) {
+/// What was reached, and the slopes of walls on the side they were seen from: a crest is not behind more than
+/// kSlopeWidth cells that hold hits, or that were left out for being next to one.
+CellBitmap with_slopes(const CellBitmap& reached, const CellBitmap& crest) {
   CellBitmap front = reached;
   for (int step = 0; step < kSlopeWidth; ++step) {
-    CellBitmap next = grown_by_sides(front);
-    keep_only(next, thick);
-    add_all(front, next);
+    front = grown_by_sides(front);
+    take_out(front, crest);
   }
   return front;
 }
@@ -71,7 +71,7 @@ FinishedMap clean_up(const LocalMap& map, std::uint32_t id, Time ended) {
   out.ended = ended;
   const Sight sight = sight_of(map.grid);
   const CellBitmap reached = flood_fill(sight.seen_through, cells_of(map.robot_positions, out.cell_size_m));
-  CellBitmap front = front_slopes(reached, sight.thick);
+  CellBitmap front = with_slopes(reached, sight.crest);
   out.occupied = sight.crest;
   keep_only(out.occupied, grown_all_round(front));
   out.free = reached;

@@ -191,6 +191,13 @@ TEST(CleanUp, IsTheSameAcrossChunkSeams) {
   EXPECT_LT(differing, 30) << "but for rounding";
 }
 
+/// A cell next to a hit is never passed: without noise, nothing was ever seen of those before a wall.
+TEST(CleanUp, KeepsWallsSeenWithoutNoise) {
+  const FinishedMap map = clean(seen(two_rooms(), {{2.2, 2.4}, {2.6, 2.5}}, 20, 0.0));
+  EXPECT_EQ(occupied_in(map, {0, 50}, {0, 199}), 150);
+  EXPECT_TRUE(map.free.test({1, 100}));
+}
+
 /// Walls of the drawn flat, seen with noise, are lines about a cell thick, closed at the corners, in place.
 TEST(CleanUp, MakesLinesOfNoisyWalls) {
   const LocalMap raw = seen(two_rooms(), {{2.2, 2.4}, {2.6, 2.5}, {3.0, 2.3}}, 17);
