@@ -93,9 +93,15 @@ bool is_surface(std::uint16_t smoothed, std::uint8_t hit, std::uint8_t miss) {
 }
 
 /// From the middle of a cell to the top of the crest over it, in cells; nothing where it is not under one.
-/// The wall runs along the axis on which the hits fall off slower.
+/// The wall is crossed along the axis that leads farther down: on a slope that is the way to its foot, so
+/// that bumps along the slope are no crests.
 std::optional<Eigen::Vector2f> crest_at(const std::uint16_t* s) {
-  const bool across_x = s[-kReach] + s[kReach] <= s[-kReach * kSide] + s[kReach * kSide];
+  const std::uint16_t *left = s - kReach, *right = s + kReach, *low = s - kReach * kSide,
+                      *high = s + kReach * kSide;
+  const int foot_x = std::min(*left, *right), foot_y = std::min(*low, *high);
+  // At a wall's end both ways lead down on one side at least.
+  const bool is_end = 4 * std::max(foot_x, foot_y) < *s;
+  const bool across_x = is_end ? *left + *right <= *low + *high : foot_x <= foot_y;
   const std::ptrdiff_t step = across_x ? 1 : kSide;
   if (!is_crest(s, step)) return std::nullopt;
   const float off = offset_of_top(s, step);
