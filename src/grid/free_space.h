@@ -34,6 +34,9 @@ class FreeSpace {
   const ScanFootprint& trace(const Pose2& grid_T_origin, std::span<const RayEnd> ends, double max_wedge_rad,
                              double cell_size_m);
 
+  /// What trace() returned last.
+  const ScanFootprint& footprint() const { return footprint_; }
+
  private:
   struct Corner {
     float x, y;  ///< cells, from the bitmap's first

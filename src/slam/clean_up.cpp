@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "slam/clean_up.h"
 
-#include <cstdlib>
 #include <vector>
 
+#include "grid/bitmap_sets.h"
 #include "grid/flood_fill.h"
 #include "slam/map_sight.h"
 
@@ -11,75 +11,33 @@ namespace dynslam {
 namespace {
 
 /// How far, in cells, hits that are not the crest themselves may lie in front of it.
-constexpr int kWallHalf = 2;
+constexpr int kSlopeWidth = 2;
 
-std::uint64_t word_or_none(const CellBitmap& bits, int row, int word) {
-  return row < 0 || row >= bits.rows() || word < 0 || word >= bits.words_per_row() ? 0 : bits.row(row)[word];
-}
+/// The edge of what was seen proves nothing, so many cells wide: rays that graze a wall end far apart along
+/// it, and what lies between two ends counts as passed, be it the wall itself.
+constexpr int kRimWidth = 2;
 
-/// The cells of a word's row that are in the set or beside one that is.
-std::uint64_t with_sides(const CellBitmap& bits, int row, int word) {
-  const std::uint64_t here = word_or_none(bits, row, word);
-  return here | (here << 1) | (here >> 1) | (word_or_none(bits, row, word - 1) >> 63) |
-         (word_or_none(bits, row, word + 1) << 63);
-}
-
-/// The set and its four neighbours of each cell, or with the corners all eight.
-CellBitmap grown(const CellBitmap& bits, bool corners) {
-  CellBitmap out;
-  out.reset(bits.box());
-  for (int r = 0; r < bits.rows(); ++r) {
-    for (int w = 0; w < bits.words_per_row(); ++w) {
-      const std::uint64_t below = corners ? with_sides(bits, r - 1, w) : word_or_none(bits, r - 1, w);
-      const std::uint64_t above = corners ? with_sides(bits, r + 1, w) : word_or_none(bits, r + 1, w);
-      out.row(r)[w] = with_sides(bits, r, w) | below | above;
-    }
-  }
-  return out;
-}
-
-void keep_only(CellBitmap& bits, const CellBitmap& mask) {
-  for (int r = 0; r < bits.rows(); ++r) {
-    for (int w = 0; w < bits.words_per_row(); ++w) bits.row(r)[w] &= mask.row(r)[w];
-  }
-}
-
-void take_out(CellBitmap& bits, const CellBitmap& others) {
-  for (int r = 0; r < bits.rows(); ++r) {
-    for (int w = 0; w < bits.words_per_row(); ++w) bits.row(r)[w] &= ~others.row(r)[w];
-  }
-}
-
-void add_all(CellBitmap& bits, const CellBitmap& more) {
-  for (int r = 0; r < bits.rows(); ++r) {
-    for (int w = 0; w < bits.words_per_row(); ++w) bits.row(r)[w] |= more.row(r)[w];
-  }
-}
-
-/// The slopes of walls on the side they were seen from: a crest is not behind more than kWallHalf of them.
-CellBitmap front_slopes(const CellBitmap& reached, const CellBitmap& thick) {
+/// What was reached, and the slopes of walls on the side they were seen from: a crest is not behind more than
+/// kSlopeWidth cells that hold hits, or that were left out for being next to one.
+CellBitmap with_slopes(const CellBitmap& reached, const CellBitmap& crest) {
   CellBitmap front = reached;
-  for (int step = 0; step < kWallHalf; ++step) {
-    CellBitmap next = grown(front, false);
-    keep_only(next, thick);
-    add_all(front, next);
+  for (int step = 0; step < kSlopeWidth; ++step) {
+    front = grown_by_sides(front);
+    take_out(front, crest);
   }
   return front;
 }
 
-/// The cells not seen at all and those within kRimWidth of one. Rays that graze a wall end far apart along it, and what
-/// lies between counts as passed, wall and all: the edge of what was seen proves nothing.
+/// The cells not seen at all and those near one.
 CellBitmap rim_of_unseen(const Sight& sight) {
-  CellBitmap rim;
-  rim.reset(sight.crest.box());
-  for (int r = 0; r < rim.rows(); ++r) {
-    for (int w = 0; w < rim.words_per_row(); ++w) {
-      rim.row(r)[w] = ~(sight.crest.row(r)[w] | sight.seen_through.row(r)[w] | sight.thick.row(r)[w]);
+  CellBitmap unseen;
+  unseen.reset(sight.crest.box());
+  for (int r = 0; r < unseen.rows(); ++r) {
+    for (int w = 0; w < unseen.words_per_row(); ++w) {
+      unseen.row(r)[w] = ~(sight.crest.row(r)[w] | sight.seen_through.row(r)[w] | sight.thick.row(r)[w]);
     }
   }
-  static const int n = std::getenv("RIM") ? std::atoi(std::getenv("RIM")) : 2;
-  for (int step = 0; step < n; ++step) rim = grown(rim, true);
-  return rim;
+  return grown_all_round(unseen, kRimWidth);
 }
 
 std::vector<CellIndex> cells_of(std::span<const Vector2> points, double cell_size_m) {
@@ -89,7 +47,8 @@ std::vector<CellIndex> cells_of(std::span<const Vector2> points, double cell_siz
 }
 
 /// The crests that were kept as points in the frame of the local map's origin.
-std::vector<CloudPoint> cloud_of(const std::vector<Crest>& crests, const CellBitmap& kept, const LocalMap& map) {
+std::vector<CloudPoint> cloud_of(const std::vector<Crest>& crests, const CellBitmap& kept,
+                                 const LocalMap& map) {
   const Pose2 origin_T_drawn = map.map_T_origin.inverse();
   std::vector<CloudPoint> cloud;
   for (const Crest& c : crests) {
@@ -112,14 +71,14 @@ FinishedMap clean_up(const LocalMap& map, std::uint32_t id, Time ended) {
   out.ended = ended;
   const Sight sight = sight_of(map.grid);
   const CellBitmap reached = flood_fill(sight.seen_through, cells_of(map.robot_positions, out.cell_size_m));
-  CellBitmap front = front_slopes(reached, sight.thick);
+  CellBitmap front = with_slopes(reached, sight.crest);
   out.occupied = sight.crest;
-  keep_only(out.occupied, grown(front, true));
+  keep_only(out.occupied, grown_all_round(front));
   out.free = reached;
   take_out(out.free, sight.doubtful);
   take_out(out.free, rim_of_unseen(sight));
   // What hid the crest from view was not there: the ray had to pass it.
-  keep_only(front, grown(grown(out.occupied, true), true));
+  keep_only(front, grown_all_round(out.occupied, kSlopeWidth));
   add_all(out.free, front);
   take_out(out.free, out.occupied);
   out.cloud = cloud_of(sight.crests, out.occupied, map);
@@ -128,7 +87,7 @@ FinishedMap clean_up(const LocalMap& map, std::uint32_t id, Time ended) {
 
 void drop_unseen(CellBitmap& free, CellBitmap& occupied, std::span<const CellIndex> seeds) {
   free = flood_fill(free, seeds);
-  keep_only(occupied, grown(free, true));
+  keep_only(occupied, grown_all_round(free));
 }
 
 }  // namespace dynslam

@@ -128,7 +128,6 @@ FrontEndResult FrontEnd::process(const Scan& scan) {
     insert(corrected, fix.map_T_robot);
   }
   result.local_map_id = local_maps_.empty() ? next_id_ : local_maps_.front().id;
-  enter("");
   return result;
 }
 

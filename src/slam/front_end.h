@@ -59,6 +59,8 @@ class FrontEnd {
   /// The maps at hand, oldest first.
   const std::deque<LocalMap>& local_maps() const { return local_maps_; }
 
+  /// The cells of the scan last drawn.
+  const ScanFootprint& footprint() const { return free_space_.footprint(); }
   std::size_t local_maps_begun() const { return next_id_; }
   std::size_t waiting() const { return waiting_.size(); }
   /// Weather: what was skipped, smoothed, refused.

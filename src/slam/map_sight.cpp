@@ -3,18 +3,22 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdlib>
 #include <cstring>
 #include <optional>
 
 namespace dynslam {
 namespace {
 
-inline int P(const char* n, int d) { const char* v = std::getenv(n); return v ? std::atoi(v) : d; }
-
-constexpr int kReach = 2;                            ///< cells, of the smoothing and of the comparison each
+constexpr int kReach = 2;  ///< cells, of the smoothing and of the comparison each
 constexpr int kRim = 2 * kReach;
 constexpr int kSide = kChunkSide + 2 * kRim;
+/// Found on simulated recordings: less lets in noise, more loses walls seen from far off or at a grazing
+/// angle.
+constexpr int kLeastHits = 15 * 256;
+/// A lidar with few beams passes a wall's cell between two hits more often than it hits it.
+constexpr int kMissesPerHit = 3;
+/// One hit within two cells is enough for doubt.
+constexpr int kDoubtfulHits = 64;
 
 /// The hits of a chunk and of a rim around it, and the same smoothed by the binomial 1 4 6 4 1 both ways. A
 /// wall drawn twice, up to two cells apart, has one crest in it.
@@ -22,7 +26,8 @@ class SmoothChunk {
  public:
   /// False when there are no hits.
   bool load(const ChunkedGrid& grid, ChunkIndex index);
-  /// Smoothed hits, 0 to 256 * 255; for cells no more than kReach outside of the chunk.
+  /// Smoothed hits, 0 to 256 * 255 (256 is the sum of the weights); for cells no more than kReach outside of
+  /// the chunk.
   const std::uint16_t& at(int x, int y) const { return smooth_[y + kRim][x + kRim]; }
 
  private:
@@ -58,14 +63,13 @@ void SmoothChunk::smooth() {
   for (int y = 0; y < kSide; ++y) {
     const std::uint8_t* h = hit_[y];
     for (int x = kReach; x < kSide - kReach; ++x) {
-      along_[y][x] =
-          static_cast<std::uint16_t>(h[x - 2] + h[x + 2] + 4 * (h[x - 1] + h[x + 1]) + 6 * h[x]);
+      along_[y][x] = static_cast<std::uint16_t>(h[x - 2] + h[x + 2] + 4 * (h[x - 1] + h[x + 1]) + 6 * h[x]);
     }
   }
   for (int y = kReach; y < kSide - kReach; ++y) {
     for (int x = kReach; x < kSide - kReach; ++x) {
-      smooth_[y][x] = static_cast<std::uint16_t>(along_[y - 2][x] + along_[y + 2][x] +
-                                                 4 * (along_[y - 1][x] + along_[y + 1][x]) + 6 * along_[y][x]);
+      smooth_[y][x] = static_cast<std::uint16_t>(
+          along_[y - 2][x] + along_[y + 2][x] + 4 * (along_[y - 1][x] + along_[y + 1][x]) + 6 * along_[y][x]);
     }
   }
 }
@@ -78,19 +82,26 @@ bool is_crest(const std::uint16_t* s, std::ptrdiff_t step) {
 /// Where between the cells beside a crest its top is: -0.5 to 0.5 of a cell from the middle, by a parabola.
 float offset_of_top(const std::uint16_t* s, std::ptrdiff_t step) {
   const int before = s[-step], after = s[step], bend = 2 * s[0] - before - after;
-  return bend <= 0 ? 0.0F : std::clamp(0.5F * static_cast<float>(after - before) / static_cast<float>(bend), -0.5F, 0.5F);
+  return bend <= 0
+             ? 0.0F
+             : std::clamp(0.5F * static_cast<float>(after - before) / static_cast<float>(bend), -0.5F, 0.5F);
 }
 
 /// Whether the hits of a cell stand for a surface.
 bool is_surface(std::uint16_t smoothed, std::uint8_t hit, std::uint8_t miss) {
-  static const int least = P("LEAST", 12) * 256, lh = P("LEASTHIT", 0), num = P("NUM", 1), den = P("DEN", 8);
-  return smoothed >= least && hit >= lh && den * hit >= num * miss;
+  return smoothed >= kLeastHits && kMissesPerHit * hit >= miss;
 }
 
 /// From the middle of a cell to the top of the crest over it, in cells; nothing where it is not under one.
-/// The wall runs along the axis on which the hits fall off slower.
+/// The wall is crossed along the axis that leads farther down: on a slope that is the way to its foot, so
+/// that bumps along the slope are no crests.
 std::optional<Eigen::Vector2f> crest_at(const std::uint16_t* s) {
-  const bool across_x = s[-kReach] + s[kReach] <= s[-kReach * kSide] + s[kReach * kSide];
+  const std::uint16_t *left = s - kReach, *right = s + kReach, *low = s - kReach * kSide,
+                      *high = s + kReach * kSide;
+  const int foot_x = std::min(*left, *right), foot_y = std::min(*low, *high);
+  // At a wall's end both ways lead down on one side at least.
+  const bool is_end = 4 * std::max(foot_x, foot_y) < *s;
+  const bool across_x = is_end ? *left + *right <= *low + *high : foot_x <= foot_y;
   const std::ptrdiff_t step = across_x ? 1 : kSide;
   if (!is_crest(s, step)) return std::nullopt;
   const float off = offset_of_top(s, step);
@@ -123,14 +134,13 @@ void read_empty_chunk(const Chunk& chunk, CellIndex first, Sight& sight) {
 }
 
 void read_row(const SmoothChunk& smooth, const Chunk& chunk, int y, CellIndex first, Sight& sight) {
-  static const int doubt = P("DOUBT", 48) * 16;
   const std::uint8_t *hit = chunk.hit[y], *miss = chunk.miss[y];
   const std::uint16_t* s = &smooth.at(0, y);
   std::uint8_t seen[kChunkSide], thick[kChunkSide], doubtful[kChunkSide], surface[kChunkSide];
   for (int x = 0; x < kChunkSide; ++x) {
     seen[x] = (miss[x] > 0) & (miss[x] >= hit[x]);
     thick[x] = hit[x] > miss[x];
-    doubtful[x] = s[x] >= doubt;
+    doubtful[x] = s[x] >= kDoubtfulHits;
     surface[x] = is_surface(s[x], hit[x], miss[x]);
   }
   std::uint64_t crest = 0;
@@ -151,7 +161,8 @@ void read_row(const SmoothChunk& smooth, const Chunk& chunk, int y, CellIndex fi
 
 Sight sight_of(const ChunkedGrid& grid) {
   Sight sight;
-  for (CellBitmap* b : {&sight.crest, &sight.seen_through, &sight.thick, &sight.doubtful}) b->reset(grid.box());
+  for (CellBitmap* b : {&sight.crest, &sight.seen_through, &sight.thick, &sight.doubtful})
+    b->reset(grid.box());
   SmoothChunk smooth;
   for (std::int32_t cy = grid.box().min.y; cy <= grid.box().max.y; ++cy) {
     for (std::int32_t cx = grid.box().min.x; cx <= grid.box().max.x; ++cx) {

@@ -26,8 +26,8 @@ struct Sight {
   CellBitmap doubtful;        ///< seen through, but not clear of hits: a surface may be there all the same
 };
 
-/// Reads a map's bytes, once. The bytes of a local map nearly count hits (see kLocalMapRule), so that across a
-/// wall they rise and fall like the sensor's noise and the wall is under the crest. Smoothed, a cell is a
+/// Reads a map's bytes, once. The bytes of a local map nearly count hits (see kLocalMapRule), so that across
+/// a wall they rise and fall like the sensor's noise and the wall is under the crest. Smoothed, a cell is a
 /// crest when none of the two on either side, across the wall, has more. Along the wall nothing is compared:
 /// ends, corners and posts stay. Linear in the chunks.
 Sight sight_of(const ChunkedGrid& grid);

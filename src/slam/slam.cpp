@@ -6,24 +6,18 @@
 namespace dynslam {
 
 Slam::Slam(const SlamConfig& config, StageWatch* watch)
-    : config_(config), watch_(watch), front_end_(config, watch), back_end_(config) {}
+    : config_(config), watch_(watch), front_end_(config, watch), back_end_(config), live_map_(config.cell_size_m, static_cast<std::size_t>(config.max_chunks)) {}
 
 std::optional<ScanResult> Slam::next(bool at_end) {
   const auto fix = front_end_.next(at_end);
   if (!fix) return std::nullopt;
   visits_.push_back({fix->stamp, fix->local_map_id, fix->drawn_T_robot});
-  while (const auto complete = front_end_.take_complete()) {
-    enter("finish map");
-    back_end_.finish(*complete);
-    back_end_.global_map().redraw(std::numeric_limits<std::size_t>::max());
-    corrections_.push_back({visits_.size() + static_cast<std::size_t>(config_.correction_delay_scans),
-                            back_end_.map_T_drawn(complete->id)});
+  if (config_.close_loops) {
+    close_loops();
+  } else {
+    draw_live(*fix);
   }
   enter("");
-  while (!corrections_.empty() && corrections_.front().due <= visits_.size()) {
-    map_T_drawn_ = corrections_.front().map_T_drawn;
-    corrections_.pop_front();
-  }
   ScanResult result;
   result.stamp = fix->stamp;
   result.map_T_robot = map_T_drawn_ * fix->drawn_T_robot;
@@ -34,7 +28,28 @@ std::optional<ScanResult> Slam::next(bool at_end) {
   return result;
 }
 
+/// Hands complete local maps to the back end, and lets what it found out reach the poses when that is due.
+void Slam::close_loops() {
+  while (const auto complete = front_end_.take_complete()) {
+    enter("close loops");
+    back_end_.finish(*complete);
+    corrections_.push_back({visits_.size() + static_cast<std::size_t>(config_.correction_delay_scans),
+                            back_end_.map_T_drawn(complete->id)});
+  }
+  while (!corrections_.empty() && corrections_.front().due <= visits_.size()) {
+    map_T_drawn_ = corrections_.front().map_T_drawn;
+    corrections_.pop_front();
+  }
+}
+
+void Slam::draw_live(const FrontEndResult& fix) {
+  while (front_end_.take_complete()) continue;  // nobody needs them
+  enter("draw");
+  if (fix.inserted) live_map_.apply(front_end_.footprint());
+}
+
 void Slam::finish() {
+  if (!config_.close_loops) return;
   front_end_.complete_all();
   while (const auto complete = front_end_.take_complete()) back_end_.finish(*complete);
   back_end_.global_map().redraw(std::numeric_limits<std::size_t>::max());
@@ -50,7 +65,7 @@ std::vector<StampedFix> Slam::trajectory() const {
 Counters Slam::counters() const {
   Counters all = front_end_.counters();
   for (const auto& [name, n] : back_end_.counters()) all.add(name, n);
-  const std::uint64_t refused = back_end_.global_map().grid().cells_refused();
+  const std::uint64_t refused = (config_.close_loops ? back_end_.global_map().grid() : live_map_).cells_refused();
   if (refused > 0) all.add("map.cells_refused", refused);
   return all;
 }

@@ -48,10 +48,13 @@ class Slam {
   /// The best that is known now of where every scan was taken.
   std::vector<StampedFix> trajectory() const;
 
-  ChunkedGrid& global_map() { return back_end_.global_map().grid(); }
+  /// With loop closing: as of the last finished map. Without: every scan so far.
+  ChunkedGrid& global_map() { return config_.close_loops ? back_end_.global_map().grid() : live_map_; }
   const BackEnd& back_end() const { return back_end_; }
   std::size_t local_maps_begun() const { return front_end_.local_maps_begun(); }
-  std::size_t local_maps_active() const { return back_end_.global_map().active(); }
+  std::size_t local_maps_active() const {
+    return config_.close_loops ? back_end_.global_map().active() : front_end_.local_maps().size();
+  }
   std::size_t waiting() const { return front_end_.waiting(); }
   /// Weather: what was skipped, smoothed, refused.
   Counters counters() const;
@@ -66,6 +69,8 @@ class Slam {
     std::size_t due = 0;  ///< at this many scans
     Pose2 map_T_drawn;
   };
+  void close_loops();
+  void draw_live(const FrontEndResult& fix);
   void enter(std::string_view stage) {
     if (watch_) watch_->enter(stage);
   }
@@ -74,6 +79,7 @@ class Slam {
   StageWatch* watch_;
   FrontEnd front_end_;
   BackEnd back_end_;
+  ChunkedGrid live_map_;  ///< without loop closing
   std::vector<Visit> visits_;
   std::deque<Correction> corrections_;
   Pose2 map_T_drawn_;  ///< as known to the poses

@@ -14,6 +14,7 @@ struct SlamConfig {
   int scans_per_local_map = 50;
   double travel_per_local_map_m = 8.0;
   double search_half_width_m = 0.1;
+  bool close_loops = false;
   int correction_delay_scans = 5;
   int max_chunks = 16384;
 
@@ -35,6 +36,8 @@ struct SlamConfig {
     visit(Field{"search_half_width_m", "least half width of the square in which a scan is searched for", 0.02,
                 1.0},
           self.search_half_width_m);
+    visit(Field{"close_loops", "recognise places seen before and straighten the map (costs more time and memory still)"},
+          self.close_loops);
     visit(Field{"correction_delay_scans", "in a replay, a closed loop moves the pose so many scans later", 0, 1000},
           self.correction_delay_scans);
     visit(Field{"max_chunks", "most chunks of 8 KiB a map may take (16384: 128 MiB, 26800 m2 at 2 cm)", 64,
