@@ -4,5 +4,6 @@
 namespace dynslam::bench {
 
 void register_memory_benchmarks();
+void register_clear_benchmarks();
 
 }  // namespace dynslam::bench
