@@ -64,6 +64,7 @@ int run(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   register_memory_benchmarks();
   register_clear_benchmarks();
+  register_match_benchmarks();
   have_had_a_thread();
   KeepingReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

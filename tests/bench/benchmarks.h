@@ -5,5 +5,6 @@ namespace dynslam::bench {
 
 void register_memory_benchmarks();
 void register_clear_benchmarks();
+void register_match_benchmarks();
 
 }  // namespace dynslam::bench
