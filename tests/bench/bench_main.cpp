@@ -65,6 +65,8 @@ int run(int argc, char** argv) {
   register_memory_benchmarks();
   register_clear_benchmarks();
   register_match_benchmarks();
+  register_replay_benchmarks();
+  register_map_benchmarks();
   have_had_a_thread();
   KeepingReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

@@ -6,5 +6,7 @@ namespace dynslam::bench {
 void register_memory_benchmarks();
 void register_clear_benchmarks();
 void register_match_benchmarks();
+void register_map_benchmarks();
+void register_replay_benchmarks();
 
 }  // namespace dynslam::bench
