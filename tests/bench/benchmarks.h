@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace dynslam::bench {
+
+void register_memory_benchmarks();
+void register_clear_benchmarks();
+void register_match_benchmarks();
+void register_map_benchmarks();
+void register_replay_benchmarks();
+
+}  // namespace dynslam::bench
