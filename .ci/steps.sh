@@ -82,7 +82,13 @@ step_asan() {
 step_format() {
   # Another release of clang-format would lay out some lines in another way.
   need clang-format-14 || skip "clang-format 14 is to be had on Debian 12"
-  git ls-files -z '*.h' '*.cpp' | xargs -0 clang-format-14 --dry-run -Werror
+  local file failed=0
+  while read -r file; do
+    clang-format-14 --dry-run -Werror "$file" >"$logs/clang-format" 2>&1 && continue
+    echo "$file: $(grep -c 'error:' "$logs/clang-format") places; clang-format-14 -i mends them"
+    failed=1
+  done < <(git ls-files '*.h' '*.cpp')
+  return $failed
 }
 
 step_scripts() {
