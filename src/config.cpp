@@ -57,9 +57,7 @@ Config make_config(const std::optional<std::string>& path, const std::vector<std
   return config;
 }
 
-Config load_config(const std::string& path) {
-  return make_config(path, {});
-}
+Config load_config(const std::string& path) { return make_config(path, {}); }
 
 void apply_setting(Config& config, std::string_view setting) {
   std::vector<std::string> problems = read_setting(setting, keys_of(config));

@@ -35,12 +35,8 @@ std::string toml_text(const std::string& text) {
   return out + '"';
 }
 
-std::string toml_text(bool value) {
-  return value ? "true" : "false";
-}
-std::string toml_text(int value) {
-  return std::to_string(value);
-}
+std::string toml_text(bool value) { return value ? "true" : "false"; }
+std::string toml_text(int value) { return std::to_string(value); }
 std::string toml_text(double value) {
   const std::string text = shortest_text(value);
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;  // "12" would be an integer
@@ -65,18 +61,10 @@ std::string limits_text(const Field& field) {
   return has_max ? " of at most " + shortest_text(field.max) : "";
 }
 
-std::string wanted(const Field&, const bool*) {
-  return "true or false";
-}
-std::string wanted(const Field& field, const int*) {
-  return "a whole number" + limits_text(field);
-}
-std::string wanted(const Field& field, const double*) {
-  return "a number" + limits_text(field);
-}
-std::string wanted(const Field&, const std::string*) {
-  return "a text in quotes";
-}
+std::string wanted(const Field&, const bool*) { return "true or false"; }
+std::string wanted(const Field& field, const int*) { return "a whole number" + limits_text(field); }
+std::string wanted(const Field& field, const double*) { return "a number" + limits_text(field); }
+std::string wanted(const Field&, const std::string*) { return "a text in quotes"; }
 std::string wanted(const ConfigKey& key) {
   return std::visit([&](const auto* value) { return wanted(key.field, value); }, key.value);
 }

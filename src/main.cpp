@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The command line. Exit code 0: fine, 1: the work failed, 2: usage or unreadable input.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
 
 #include "config.h"
 #include "replay_command.h"
@@ -38,13 +41,17 @@ int run(int argc, char** argv) {
   Common common;
 
   dynslam::ReplayOptions options;
-  CLI::App* replay = app.add_subcommand("replay", "map a recording: CARMEN log (.clf, .log, .gz) or MCAP with ROS 2 messages");
+  CLI::App* replay = app.add_subcommand(
+      "replay", "map a recording: CARMEN log (.clf, .log, .gz) or MCAP with ROS 2 messages");
   replay->add_option("recording", options.recording, "the recording")->required()->type_name("RECORDING");
-  replay->add_option("--out", options.out, "folder for map, trajectory and report")->type_name("DIR")->capture_default_str();
+  replay->add_option("--out", options.out, "folder for map, trajectory and report")
+      ->type_name("DIR")
+      ->capture_default_str();
   replay->add_flag("--quiet", options.quiet, "no progress and no summary");
   common.add_to(*replay);
 
-  CLI::App* check = app.add_subcommand("check-config", "read a configuration file and print all settings as they are in force");
+  CLI::App* check = app.add_subcommand(
+      "check-config", "read a configuration file and print all settings as they are in force");
   check->add_option("file", common.config, "configuration file (TOML)")->required()->type_name("FILE");
   check->add_option("--set", common.settings, "one setting, over what the file says: section.key=value")
       ->type_name("KEY=VALUE")
@@ -54,7 +61,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);
-    std::fprintf(stderr, "dynslam: %s (--help says more)\n", e.what());
+    spdlog::error("{} (--help says more)", e.what());
     return kUnusable;
   }
   if (check->parsed()) {
@@ -67,13 +74,15 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("dynslam"));
+  spdlog::set_pattern("%n: %^%v%$");
   try {
     return run(argc, argv);
   } catch (const dynslam::InputError& e) {
-    std::fprintf(stderr, "dynslam: %s\n", e.what());
+    spdlog::error("{}", e.what());
     return kUnusable;
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "dynslam: failed: %s\n", e.what());
+    spdlog::critical("failed: {}", e.what());
     return kFailed;
   }
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "progress_bar.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
+
+#include <unistd.h>
 
 namespace dynslam {
 
@@ -18,8 +18,8 @@ std::string progress_line(double share, std::uint64_t scans, double elapsed_s) {
   std::array<char, 160> line{};
   const double rate = static_cast<double>(scans) / elapsed_s;
   const double left_s = done > 0 ? elapsed_s * (1 - done) / done : 0;
-  std::snprintf(line.data(), line.size(), "[%s] %3.0f %%  %llu scans  %.0f/s  %.0f s left", bar.c_str(), 100 * done,
-                static_cast<unsigned long long>(scans), rate, left_s);
+  std::snprintf(line.data(), line.size(), "[%s] %3.0f %%  %llu scans  %.0f/s  %.0f s left", bar.c_str(),
+                100 * done, static_cast<unsigned long long>(scans), rate, left_s);
   return line.data();
 }
 

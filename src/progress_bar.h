@@ -10,8 +10,8 @@ namespace dynslam {
 /// One line of text for a share of work done: a bar, the rate and the time left. `elapsed_s` > 0.
 std::string progress_line(double share, std::uint64_t scans, double elapsed_s);
 
-/// Keeps that line at the bottom of a terminal: on stderr, ten times a second at the most. Does nothing where stderr is no
-/// terminal.
+/// Keeps that line at the bottom of a terminal: on stderr, ten times a second at the most. Does nothing where
+/// stderr is no terminal.
 class ProgressBar {
  public:
   explicit ProgressBar(bool wanted);

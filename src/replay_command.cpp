@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "replay_command.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <numeric>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
 #include "grid/trinary_map.h"
 #include "io/map_file.h"
@@ -19,8 +20,9 @@ namespace dynslam {
 namespace {
 
 double duration_s(const ReplayResult& result) {
-  return result.trajectory.empty() ? 0.0
-                                   : to_seconds(result.trajectory.back().stamp - result.trajectory.front().stamp);
+  return result.trajectory.empty()
+             ? 0.0
+             : to_seconds(result.trajectory.back().stamp - result.trajectory.front().stamp);
 }
 
 long peak_rss_bytes() {
@@ -35,7 +37,10 @@ nlohmann::json spread(std::vector<float> ms) {
     return ms.empty() ? 0.0F : ms[static_cast<std::size_t>(share * static_cast<double>(ms.size() - 1))];
   };
   const double sum = std::accumulate(ms.begin(), ms.end(), 0.0);
-  return {{"mean", ms.empty() ? 0.0 : sum / static_cast<double>(ms.size())}, {"p50", at(0.5)}, {"p99", at(0.99)}, {"max", at(1.0)}};
+  return {{"mean", ms.empty() ? 0.0 : sum / static_cast<double>(ms.size())},
+          {"p50", at(0.5)},
+          {"p99", at(0.99)},
+          {"max", at(1.0)}};
 }
 
 nlohmann::json report(const ReplayResult& result) {
@@ -55,7 +60,9 @@ nlohmann::json report(const ReplayResult& result) {
           {"active_local_maps", result.local_maps_active},
           {"loop_closures", 0},
           {"map",
-           {{"cell_size_m", result.map.cell_size_m()}, {"chunks", result.map.chunk_count()}, {"bytes", result.map_bytes}}},
+           {{"cell_size_m", result.map.cell_size_m()},
+            {"chunks", result.map.chunk_count()},
+            {"bytes", result.map_bytes}}},
           {"counters", counters}};
 }
 
@@ -76,9 +83,10 @@ void write_results(OutputFolder& out, ReplayResult& result) {
 
 void tell(const ReplayResult& result, const std::string& out) {
   const double recorded_s = duration_s(result);
-  std::printf("%zu scans over %.0f s, mapped in %.2f s (%.0f times real time)\n", result.trajectory.size(), recorded_s,
-              result.wall_s, recorded_s / std::max(1e-3, result.wall_s));
-  for (const auto& [name, n] : result.counters) std::printf("  %s: %llu\n", name.c_str(), static_cast<unsigned long long>(n));
+  std::printf("%zu scans over %.0f s, mapped in %.2f s (%.0f times real time)\n", result.trajectory.size(),
+              recorded_s, result.wall_s, recorded_s / std::max(1e-3, result.wall_s));
+  for (const auto& [name, n] : result.counters)
+    std::printf("  %s: %llu\n", name.c_str(), static_cast<unsigned long long>(n));
   std::printf("map picture: %s/map.png\n", out.c_str());
 }
 
@@ -90,7 +98,8 @@ int run_replay(const ReplayOptions& options, const Config& config) {
   ReplayResult result;
   {
     ProgressBar bar(!options.quiet);
-    result = replay(*recording, config.slam, [&](double share, std::uint64_t scans) { bar.show(share, scans); });
+    result =
+        replay(*recording, config.slam, [&](double share, std::uint64_t scans) { bar.show(share, scans); });
   }
   const auto& damage = recording->damage();
   if (result.trajectory.empty()) {
@@ -98,7 +107,7 @@ int run_replay(const ReplayOptions& options, const Config& config) {
   }
   write_results(out, result);
   if (!options.quiet) tell(result, options.out);
-  if (damage) std::fprintf(stderr, "dynslam: %s; what came before is mapped\n", damage->c_str());
+  if (damage) spdlog::warn("{}; what came before is mapped", *damage);
   return damage ? 2 : 0;
 }
 

@@ -13,9 +13,9 @@ struct ReplayOptions {
   bool quiet = false;
 };
 
-/// `dynslam replay`: a recording in; trajectory, map, picture and report out. Returns the exit code: 0, or 2 when the
-/// recording broke off and only what came before was mapped. Throws InputError for what cannot be used, and then
-/// leaves an older result as it was.
+/// `dynslam replay`: a recording in; trajectory, map, picture and report out. Returns the exit code: 0, or 2
+/// when the recording broke off and only what came before was mapped. Throws InputError for what cannot be
+/// used, and then leaves an older result as it was.
 int run_replay(const ReplayOptions& options, const Config& config);
 
 }  // namespace dynslam

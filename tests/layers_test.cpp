@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Holds the drawing of the layers: who may include whom. A folder may include itself and the folders of its row.
-#include <gtest/gtest.h>
-
+// Holds the drawing of the layers: who may include whom. A folder may include itself and the folders of its
+// row.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -9,6 +8,8 @@
 #include <set>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace {
 
@@ -42,8 +43,11 @@ const std::map<std::string, Folders> kMayInclude = {
 };
 
 /// Libraries that only one folder may see, by the first part of what is included.
-const std::map<std::string, std::string> kOnlyIn = {
-    {"ceres", "slam"}, {"civetweb.h", "server"}, {"gpiod.h", "drivers"}, {"libcamera", "drivers"}, {"i2c", "drivers"}};
+const std::map<std::string, std::string> kOnlyIn = {{"ceres", "slam"},
+                                                    {"civetweb.h", "server"},
+                                                    {"gpiod.h", "drivers"},
+                                                    {"libcamera", "drivers"},
+                                                    {"i2c", "drivers"}};
 
 struct Include {
   std::string file, folder, target;
@@ -60,7 +64,9 @@ std::vector<Include> all_includes() {
       if (extension != ".h" && extension != ".cpp") continue;
       const fs::path inside = fs::relative(entry.path(), root / top);
       const std::string first = *inside.begin();
-      const std::string folder = std::string(top) == "drivers" ? "drivers" : inside.has_parent_path() ? first : "";
+      const std::string folder = std::string(top) == "drivers" ? "drivers"
+                                 : inside.has_parent_path()    ? first
+                                                               : "";
       std::ifstream in(entry.path());
       for (std::string line; std::getline(in, line);) {
         std::smatch m;
@@ -78,7 +84,8 @@ TEST(Layers, NoFolderIncludesAnythingAboveIt) {
   ASSERT_GT(includes.size(), 50U) << "the search for includes found next to nothing: is it broken?";
   for (const Include& i : includes) {
     const std::string target = first_part(i.target);
-    if (i.folder.empty() || target == i.folder || !kMayInclude.contains(target)) continue;  // main and config see all
+    if (i.folder.empty() || target == i.folder || !kMayInclude.contains(target))
+      continue;  // main and config see all
     const auto row = kMayInclude.find(i.folder);
     ASSERT_NE(row, kMayInclude.end()) << i.file << ": folder '" << i.folder << "' has no row in the table";
     EXPECT_TRUE(row->second.contains(target)) << i.file << " includes " << i.target;

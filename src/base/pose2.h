@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
+
+#include <Eigen/Core>
 
 #include "base/angles.h"
 
@@ -35,11 +36,14 @@ inline Vector2 operator*(const Pose2& a, const Vector2& p) {
   return {a.x + c * p.x() - s * p.y(), a.y + s * p.x() + c * p.y()};
 }
 
-/// The pose a share `t` (0 = a, 1 = b, beyond = extrapolated) of the way from a to b; the turn is the shortest.
+/// The pose a share `t` (0 = a, 1 = b, beyond = extrapolated) of the way from a to b; the turn is the
+/// shortest.
 inline Pose2 interpolate(const Pose2& a, const Pose2& b, double t) {
   return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), wrap_angle(a.yaw + t * turn(a.yaw, b.yaw))};
 }
 
-inline bool is_finite(const Pose2& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.yaw); }
+inline bool is_finite(const Pose2& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.yaw);
+}
 
 }  // namespace dynslam

@@ -13,8 +13,9 @@ namespace dynslam {
 /// One measurement of the lidar, in its own frame: x forward, angles counter-clockwise.
 struct Beam {
   float angle_rad = 0.0F;
-  float range_m = std::numeric_limits<float>::quiet_NaN();  ///< +inf: nothing came back; NaN: no valid measurement
-  float time_s = 0.0F;                                      ///< after the scan's stamp
+  float range_m =
+      std::numeric_limits<float>::quiet_NaN();  ///< +inf: nothing came back; NaN: no valid measurement
+  float time_s = 0.0F;                          ///< after the scan's stamp
 };
 
 inline bool is_return(const Beam& b) { return std::isfinite(b.range_m); }

@@ -8,7 +8,8 @@ namespace dynslam {
 void CellBitmap::reset(const ChunkBox& box) {
   box_ = box;
   words_per_row_ = box.width();
-  words_.assign(static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height()) * kChunkSide, 0);
+  words_.assign(static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height()) * kChunkSide,
+                0);
 }
 
 bool CellBitmap::contains(CellIndex c) const {

@@ -9,8 +9,8 @@
 
 namespace dynslam {
 
-/// A set of cells inside a rectangle of chunks, one bit a cell. Bit b of a word is the cell b to the right of the
-/// word's first; words fall together with chunk rows, so that a word is the set for one row of one chunk.
+/// A set of cells inside a rectangle of chunks, one bit a cell. Bit b of a word is the cell b to the right of
+/// the word's first; words fall together with chunk rows, so that a word is the set for one row of one chunk.
 class CellBitmap {
  public:
   /// Covers `box`, all bits clear. Keeps its memory from one call to the next.
@@ -30,7 +30,9 @@ class CellBitmap {
   void toggle(CellIndex c) { word(c) ^= std::uint64_t{1} << (c.x & kChunkMask); }
 
   /// The words of a row, counted from the lowest.
-  std::uint64_t* row(int r) { return &words_[static_cast<std::size_t>(r) * static_cast<std::size_t>(words_per_row_)]; }
+  std::uint64_t* row(int r) {
+    return &words_[static_cast<std::size_t>(r) * static_cast<std::size_t>(words_per_row_)];
+  }
   const std::uint64_t* row(int r) const {
     return &words_[static_cast<std::size_t>(r) * static_cast<std::size_t>(words_per_row_)];
   }

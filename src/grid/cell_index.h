@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <compare>
 #include <cstdint>
+
+#include <Eigen/Core>
 
 namespace dynslam {
 

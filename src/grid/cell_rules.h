@@ -6,8 +6,8 @@
 
 #include "grid/cell_index.h"
 
-/// How a cell learns and what it means: the one place that looks at the bytes (thesis 4.1.2, equations 4.4 and 4.5).
-/// Each cell has two bytes, hit and miss: 0 = never seen .. 255 = sure.
+/// How a cell learns and what it means: the one place that looks at the bytes (thesis 4.1.2, equations 4.4
+/// and 4.5). Each cell has two bytes, hit and miss: 0 = never seen .. 255 = sure.
 namespace dynslam {
 
 /// What a look adds to the plane it speaks for, and takes from the other one.

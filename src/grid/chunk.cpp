@@ -17,7 +17,8 @@ void ChunkBox::include(ChunkIndex c) {
 
 /// Where `index` is, or the empty place where it would go. REQUIRES: there is an empty place.
 std::size_t ChunkTable::place_of(ChunkIndex index) const {
-  const auto key = (std::uint64_t{static_cast<std::uint32_t>(index.x)} << 32) | static_cast<std::uint32_t>(index.y);
+  const auto key =
+      (std::uint64_t{static_cast<std::uint32_t>(index.x)} << 32) | static_cast<std::uint32_t>(index.y);
   std::uint64_t hash = key * 0x9E3779B97F4A7C15ULL;
   hash ^= hash >> 32;
   const std::size_t mask = places_.size() - 1;

@@ -11,7 +11,8 @@
 namespace dynslam {
 
 inline constexpr int kChunkBits = 6;
-inline constexpr int kChunkSide = 1 << kChunkBits;  ///< cells; a row of a chunk is one 64-bit word of a CellBitmap
+inline constexpr int kChunkSide =
+    1 << kChunkBits;  ///< cells; a row of a chunk is one 64-bit word of a CellBitmap
 inline constexpr int kChunkMask = kChunkSide - 1;
 
 /// A square of 64 x 64 cells: two planes of bytes, rows contiguous.
@@ -42,7 +43,8 @@ struct ChunkBox {
   void include(ChunkIndex c);
 };
 
-/// Finds chunks by index: a hash table with open addressing, cheap to copy as a whole. Chunks are never taken out.
+/// Finds chunks by index: a hash table with open addressing, cheap to copy as a whole. Chunks are never taken
+/// out.
 class ChunkTable {
  public:
   struct Entry {

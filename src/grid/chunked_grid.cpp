@@ -15,7 +15,8 @@ constexpr std::array<std::uint64_t, 256> make_spread() {
   std::array<std::uint64_t, 256> spread{};
   for (unsigned bits = 0; bits < 256; ++bits) {
     for (unsigned b = 0; b < 8; ++b) {
-      if ((bits >> b) & 1U) spread[bits] |= std::uint64_t{0xFF} << (8 * (std::endian::native == std::endian::little ? b : 7 - b));
+      if ((bits >> b) & 1U)
+        spread[bits] |= std::uint64_t{0xFF} << (8 * (std::endian::native == std::endian::little ? b : 7 - b));
     }
   }
   return spread;
@@ -54,7 +55,8 @@ bool is_sure_of_misses(const Row& hit, const Row& miss) {
 CellState GridSnapshot::state(CellIndex c) const {
   const Chunk* chunk = find(chunk_of(c));
   if (!chunk) return CellState::kUnknown;
-  return cell_state(chunk->hit[c.y & kChunkMask][c.x & kChunkMask], chunk->miss[c.y & kChunkMask][c.x & kChunkMask]);
+  return cell_state(chunk->hit[c.y & kChunkMask][c.x & kChunkMask],
+                    chunk->miss[c.y & kChunkMask][c.x & kChunkMask]);
 }
 
 std::uint8_t ChunkedGrid::hit(CellIndex c) const {
@@ -67,7 +69,8 @@ std::uint8_t ChunkedGrid::miss(CellIndex c) const {
   return chunk ? chunk->miss[c.y & kChunkMask][c.x & kChunkMask] : std::uint8_t{0};
 }
 
-/// The chunk to write to: allotted if it is new, cloned if a snapshot may hold it; null when the cap is reached.
+/// The chunk to write to: allotted if it is new, cloned if a snapshot may hold it; null when the cap is
+/// reached.
 Chunk* ChunkedGrid::writable(ChunkIndex index) {
   std::shared_ptr<Chunk>* entry = table_.find_entry(index);
   if (!entry) {

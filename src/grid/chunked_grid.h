@@ -33,19 +33,20 @@ class GridSnapshot {
   double cell_size_m_ = 0.02;
 };
 
-/// What a scan says of the cells around it: each cell at most once. Made by FreeSpace, applied to any grid of the same
-/// frame and cell size.
+/// What a scan says of the cells around it: each cell at most once. Made by FreeSpace, applied to any grid of
+/// the same frame and cell size.
 struct ScanFootprint {
   CellBitmap misses;            ///< no cell of `hits` and none next to one
   std::vector<CellIndex> hits;  ///< no cell twice
 };
 
-/// The grid map of the design: two bytes a cell in chunks of 64 x 64 that exist only where something was seen.
+/// The grid map of the design: two bytes a cell in chunks of 64 x 64 that exist only where something was
+/// seen.
 ///
 /// Memory: 8 KiB and about 64 bytes a chunk, and a table of at most four places (24 bytes) a chunk. Beyond
 /// `max_chunks` nothing new is allotted; the looks lost by that are counted.
-/// Threads: one writer. Snapshots may be handed to any thread: the first write to a chunk after a snapshot goes to
-/// a fresh copy, so that no reader sees a chunk change.
+/// Threads: one writer. Snapshots may be handed to any thread: the first write to a chunk after a snapshot
+/// goes to a fresh copy, so that no reader sees a chunk change.
 class ChunkedGrid {
  public:
   explicit ChunkedGrid(double cell_size_m, std::size_t max_chunks = 32768, CellRule rule = {})
@@ -64,11 +65,14 @@ class ChunkedGrid {
   /// All of a scan at once. Same result as add_hit and add_miss on each of its cells.
   void apply(const ScanFootprint& footprint);
 
-  /// The map as it is now, without copying cells. Costs a copy of the table; chunks written later are cloned first.
+  /// The map as it is now, without copying cells. Costs a copy of the table; chunks written later are cloned
+  /// first.
   GridSnapshot snapshot();
 
   std::size_t chunk_count() const { return table_.size(); }
-  std::size_t bytes() const { return chunk_count() * sizeof(Chunk) + table_.places().size() * sizeof(ChunkTable::Entry); }
+  std::size_t bytes() const {
+    return chunk_count() * sizeof(Chunk) + table_.places().size() * sizeof(ChunkTable::Entry);
+  }
   /// Cells that were not written because the cap on chunks was reached.
   std::uint64_t cells_refused() const { return cells_refused_; }
 

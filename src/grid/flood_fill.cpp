@@ -15,7 +15,8 @@ std::uint64_t word_in_state(const Chunk& chunk, int row, CellState state) {
   return word;
 }
 
-/// The fill of one call. A step takes a word's newly reached bits and offers them to the four words around it.
+/// The fill of one call. A step takes a word's newly reached bits and offers them to the four words around
+/// it.
 class Filler {
  public:
   Filler(const CellBitmap& through, CellBitmap& reached) : through_(through), reached_(reached) {}
@@ -67,7 +68,8 @@ CellBitmap cells_in_state(const GridSnapshot& map, CellState state) {
       const Chunk* chunk = map.find({x, y});
       if (!chunk) continue;
       const int first_row = (y - map.box().min.y) * kChunkSide;
-      for (int r = 0; r < kChunkSide; ++r) cells.row(first_row + r)[x - map.box().min.x] = word_in_state(*chunk, r, state);
+      for (int r = 0; r < kChunkSide; ++r)
+        cells.row(first_row + r)[x - map.box().min.x] = word_in_state(*chunk, r, state);
     }
   }
   return cells;

@@ -11,8 +11,9 @@ namespace dynslam {
 /// The cells of a map that are in the given state. Linear in the map's chunks.
 CellBitmap cells_in_state(const GridSnapshot& map, CellState state);
 
-/// The cells of `through` that can be reached from `seeds` by steps up, down, left and right inside `through`.
-/// Seeds that are not in `through` are passed over. Linear in the cells reached, a span of a row at a time.
+/// The cells of `through` that can be reached from `seeds` by steps up, down, left and right inside
+/// `through`. Seeds that are not in `through` are passed over. Linear in the cells reached, a span of a row
+/// at a time.
 CellBitmap flood_fill(const CellBitmap& through, std::span<const CellIndex> seeds);
 
 }  // namespace dynslam

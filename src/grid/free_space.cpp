@@ -9,16 +9,17 @@
 namespace dynslam {
 namespace {
 
-/// Whether two rays next to each other end on one surface. Seen at a flat angle, a wall's ends lie several arcs
-/// apart; a step of more than that, and of more than what noise makes, is an edge with something unseen behind it.
+/// Whether two rays next to each other end on one surface. Seen at a flat angle, a wall's ends lie several
+/// arcs apart; a step of more than that, and of more than what noise makes, is an edge with something unseen
+/// behind it.
 bool on_one_surface(const RayEnd& a, const RayEnd& b) {
   const float step = std::abs(a.range_m - b.range_m);
   const float arc = std::min(a.range_m, b.range_m) * std::abs(b.bearing_rad - a.bearing_rad);
   return step <= 0.1F + 3.0F * arc;
 }
 
-/// Whether the surface between two ends is as good as seen: they are more than a cell apart, and the line between them
-/// is not so steep that it may be the edge of one thing before another.
+/// Whether the surface between two ends is as good as seen: they are more than a cell apart, and the line
+/// between them is not so steep that it may be the edge of one thing before another.
 bool is_surface_between(const RayEnd& a, const RayEnd& b, double max_wedge_rad, double cell_size_m) {
   constexpr float kLongest_m = 0.6F;
   const float wedge = b.bearing_rad - a.bearing_rad;
@@ -37,8 +38,8 @@ std::uint64_t parity_up_to_each_bit(std::uint64_t word) {
 
 }  // namespace
 
-const ScanFootprint& FreeSpace::trace(const Pose2& grid_T_origin, std::span<const RayEnd> ends, double max_wedge_rad,
-                                      double cell_size_m) {
+const ScanFootprint& FreeSpace::trace(const Pose2& grid_T_origin, std::span<const RayEnd> ends,
+                                      double max_wedge_rad, double cell_size_m) {
   lone_.clear();
   place(grid_T_origin, ends, cell_size_m);
   outline(ends, max_wedge_rad);
@@ -73,8 +74,8 @@ void FreeSpace::place(const Pose2& grid_T_origin, std::span<const RayEnd> ends, 
   for (Corner& corner : corners_) corner = {corner.x + centre_.x, corner.y + centre_.y};
 }
 
-/// Toggles, in each row whose middle the edge crosses, the first cell whose centre lies right of it. An edge has its
-/// lower end and not its upper one, so that a corner between two edges counts once.
+/// Toggles, in each row whose middle the edge crosses, the first cell whose centre lies right of it. An edge
+/// has its lower end and not its upper one, so that a corner between two edges counts once.
 void FreeSpace::add_edge(Corner a, Corner b) {
   if (a.y > b.y) std::swap(a, b);
   const int begin = static_cast<int>(std::ceil(a.y - 0.5F));
@@ -139,8 +140,9 @@ void FreeSpace::fill() {
 
 void FreeSpace::walk_lone_ray(Corner end) {
   const CellIndex first = footprint_.misses.first();
-  walk_ray({centre_.x, centre_.y}, {end.x, end.y}, 1.0,
-           [&](CellIndex c) { footprint_.misses.set({c.x + first.x, c.y + first.y}); });
+  walk_ray({centre_.x, centre_.y}, {end.x, end.y}, 1.0, [&](CellIndex c) {
+    footprint_.misses.set({c.x + first.x, c.y + first.y});
+  });
 }
 
 /// Notes a hit cell once, and takes it and its ring out of the misses: rays that graze a wall would eat it.
@@ -153,7 +155,8 @@ void FreeSpace::mark_hit(CellIndex c) {
   }
 }
 
-/// The cells of the ends and, where two rays next to each other clearly ended on one surface, of the surface between.
+/// The cells of the ends and, where two rays next to each other clearly ended on one surface, of the surface
+/// between.
 void FreeSpace::mark_hits(std::span<const RayEnd> ends, double max_wedge_rad, double cell_size_m) {
   const CellIndex first = hit_bits_.first();
   footprint_.hits.clear();
@@ -161,8 +164,9 @@ void FreeSpace::mark_hits(std::span<const RayEnd> ends, double max_wedge_rad, do
     if (!ends[i].hit) continue;
     const std::size_t j = i + 1 < ends.size() ? i + 1 : 0;
     if (ends[j].hit && is_surface_between(ends[i], ends[j], max_wedge_rad, cell_size_m)) {
-      walk_ray({corners_[i].x, corners_[i].y}, {corners_[j].x, corners_[j].y}, 1.0,
-               [&](CellIndex c) { mark_hit({c.x + first.x, c.y + first.y}); });
+      walk_ray({corners_[i].x, corners_[i].y}, {corners_[j].x, corners_[j].y}, 1.0, [&](CellIndex c) {
+        mark_hit({c.x + first.x, c.y + first.y});
+      });
     } else {
       mark_hit({first.x + static_cast<std::int32_t>(std::floor(corners_[i].x)),
                 first.y + static_cast<std::int32_t>(std::floor(corners_[i].y))});

@@ -20,12 +20,12 @@ struct RayEnd {
 
 /// Turns the rays of a scan into the cells they passed and the cells they hit.
 ///
-/// The free space of a scan is a star-shaped polygon: its corners are the ray ends, and between two rays next to each
-/// other the wedge is free too (thesis 4.1.2), up to the nearer end where the surface breaks off. A cell is passed
-/// when its centre lies in the polygon, or when a ray that stands alone crosses it. The polygon is filled by parity:
-/// each edge toggles one bit a row, then a running exclusive or along the row fills it; rays far apart and close
-/// together cost the same, and no cell is touched twice.
-/// Keeps its buffers between calls. One thread.
+/// The free space of a scan is a star-shaped polygon: its corners are the ray ends, and between two rays next
+/// to each other the wedge is free too (thesis 4.1.2), up to the nearer end where the surface breaks off. A
+/// cell is passed when its centre lies in the polygon, or when a ray that stands alone crosses it. The
+/// polygon is filled by parity: each edge toggles one bit a row, then a running exclusive or along the row
+/// fills it; rays far apart and close together cost the same, and no cell is touched twice. Keeps its buffers
+/// between calls. One thread.
 class FreeSpace {
  public:
   /// `ends` in order of bearing; rays farther apart than `max_wedge_rad` have nothing between them.

@@ -39,7 +39,8 @@ TrinaryMap trinary_map(const GridSnapshot& map) {
   out.origin = low;
   out.width = high.x - low.x + 1;
   out.height = high.y - low.y + 1;
-  out.cells.assign(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height), CellState::kUnknown);
+  out.cells.assign(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height),
+                   CellState::kUnknown);
   for_each_known_cell(map, [&](CellIndex c, CellState state) {
     out.cells[static_cast<std::size_t>(c.y - low.y) * static_cast<std::size_t>(out.width) +
               static_cast<std::size_t>(c.x - low.x)] = state;

@@ -9,8 +9,8 @@
 
 namespace dynslam {
 
-/// A finished map as one rectangle of states, for files and pictures. Row 0 is the lowest y (y is flipped only at a
-/// picture's edge); cell (x, y) of the map is at cells[(y - origin.y) * width + (x - origin.x)].
+/// A finished map as one rectangle of states, for files and pictures. Row 0 is the lowest y (y is flipped
+/// only at a picture's edge); cell (x, y) of the map is at cells[(y - origin.y) * width + (x - origin.x)].
 struct TrinaryMap {
   double cell_size_m = 0.02;
   CellIndex origin;  ///< lower left cell
@@ -19,7 +19,8 @@ struct TrinaryMap {
   std::vector<CellState> cells;
 
   CellState at(int column, int row) const {
-    return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)];
+    return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                 static_cast<std::size_t>(column)];
   }
 };
 

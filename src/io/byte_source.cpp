@@ -12,9 +12,7 @@
 namespace dynslam {
 namespace {
 
-std::string error_text(int error) {
-  return std::generic_category().message(error);
-}
+std::string error_text(int error) { return std::generic_category().message(error); }
 
 /// Opening a pipe would wait for its writer, and a directory opens but does not read; hence the look
 /// beforehand.

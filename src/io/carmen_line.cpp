@@ -8,9 +8,7 @@
 namespace dynslam {
 namespace {
 
-bool is_space(char c) {
-  return c == ' ' || c == '\t';
-}
+bool is_space(char c) { return c == ' ' || c == '\t'; }
 
 bool parse_ranges(CarmenWords& words, std::vector<float>& ranges_m) {
   std::size_t count = 0;
@@ -62,12 +60,8 @@ bool CarmenWords::parse(T& value) {
   return true;
 }
 
-bool CarmenWords::number(double& value) {
-  return parse(value);
-}
-bool CarmenWords::number(std::size_t& value) {
-  return parse(value);
-}
+bool CarmenWords::number(double& value) { return parse(value); }
+bool CarmenWords::number(std::size_t& value) { return parse(value); }
 
 bool CarmenWords::skip_numbers(int count) {
   double ignored = 0.0;

@@ -22,9 +22,7 @@ bool is_message_name(std::string_view word) {
   return std::find(std::begin(kKnownMessages), std::end(kKnownMessages), word) != std::end(kKnownMessages);
 }
 
-bool is_default(const LidarMount& mount) {
-  return mount.robot_T_lidar == Pose2{} && !mount.upside_down;
-}
+bool is_default(const LidarMount& mount) { return mount.robot_T_lidar == Pose2{} && !mount.upside_down; }
 
 bool are_same(const Pose2& a, const Pose2& b) {
   constexpr double kPrinted = 2e-6;  // the last digit of what CARMEN prints

@@ -22,9 +22,7 @@ LZ4F_dctx* new_lz4() {
 
 }  // namespace
 
-void ChunkUnpacker::FreeZstd::operator()(ZSTD_DCtx_s* context) const {
-  ZSTD_freeDCtx(context);
-}
+void ChunkUnpacker::FreeZstd::operator()(ZSTD_DCtx_s* context) const { ZSTD_freeDCtx(context); }
 void ChunkUnpacker::FreeLz4::operator()(LZ4F_dctx_s* context) const {
   LZ4F_freeDecompressionContext(context);
 }

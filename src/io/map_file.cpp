@@ -26,9 +26,7 @@ char pixel_of(CellState state) {
   return kUnknownPixel;
 }
 
-bool is_empty(const TrinaryMap& map) {
-  return map.width <= 0 || map.height <= 0;
-}
+bool is_empty(const TrinaryMap& map) { return map.width <= 0 || map.height <= 0; }
 
 std::string pgm_header(int width, int height) {
   return "P5\n" + std::to_string(width) + ' ' + std::to_string(height) + "\n255\n";

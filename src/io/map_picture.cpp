@@ -89,9 +89,7 @@ StrokePoint to_picture(const TrinaryMap& map, const PictureLayout& l, const Vect
   return {bounded(x), bounded(y), kInk};
 }
 
-float distance_px(const StrokePoint& a, const StrokePoint& b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
-}
+float distance_px(const StrokePoint& a, const StrokePoint& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
 /// The path without the points that would fall on the same pixel: a robot that stands still adds one each
 /// scan.

@@ -26,9 +26,7 @@ float nearest_share(const StrokePoint& a, const StrokePoint& b, float x, float y
 
 }  // namespace
 
-Rgb mix(Rgb a, Rgb b, float t) {
-  return {mix(a.r, b.r, t), mix(a.g, b.g, t), mix(a.b, b.b, t)};
-}
+Rgb mix(Rgb a, Rgb b, float t) { return {mix(a.r, b.r, t), mix(a.g, b.g, t), mix(a.b, b.b, t)}; }
 
 PictureBand::PictureBand(int width, int max_rows)
     : width_(width),

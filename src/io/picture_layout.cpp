@@ -34,9 +34,7 @@ void add_rim(PictureLayout& layout) {
   layout.rows += layout.shrink;
 }
 
-constexpr int divide_up(int a, int b) {
-  return (a + b - 1) / b;
-}
+constexpr int divide_up(int a, int b) { return (a + b - 1) / b; }
 
 }  // namespace
 

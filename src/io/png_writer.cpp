@@ -46,9 +46,7 @@ PngWriter::PngWriter(int width, int height) {
   }
 }
 
-PngWriter::~PngWriter() {
-  png_destroy_write_struct(&png_, &info_);
-}
+PngWriter::~PngWriter() { png_destroy_write_struct(&png_, &info_); }
 
 void PngWriter::write_header(int width, int height) {
   if (setjmp(png_jmpbuf(png_)) != 0) fail();
@@ -71,8 +69,6 @@ std::string PngWriter::finish() {
   return std::move(bytes_);
 }
 
-void PngWriter::fail() const {
-  throw std::runtime_error("cannot make a PNG picture: " + error_);
-}
+void PngWriter::fail() const { throw std::runtime_error("cannot make a PNG picture: " + error_); }
 
 }  // namespace dynslam

@@ -21,9 +21,9 @@ struct RecordingConfig {
 };
 
 /// What was recorded, in the order of the file, read as a stream: memory does not grow with the file.
-/// Values are clean: quaternions are unit length, angles and odometry finite, ranges finite and positive or +inf
-/// (no return) or NaN (invalid), stamps representable. What had to be dropped for it is counted.
-/// One thread at a time.
+/// Values are clean: quaternions are unit length, angles and odometry finite, ranges finite and positive or
+/// +inf (no return) or NaN (invalid), stamps representable. What had to be dropped for it is counted. One
+/// thread at a time.
 class Recording {
  public:
   virtual ~Recording() = default;
@@ -41,8 +41,9 @@ class Recording {
   virtual const Counters& counters() const = 0;
 };
 
-/// Opens a CARMEN log (.clf, .log, also gzipped) or an MCAP file; which one is told from the contents, not the name.
-/// Throws InputError, with the path in the message, when the file is missing, a directory, empty, unreadable or neither.
+/// Opens a CARMEN log (.clf, .log, also gzipped) or an MCAP file; which one is told from the contents, not
+/// the name. Throws InputError, with the path in the message, when the file is missing, a directory, empty,
+/// unreadable or neither.
 std::unique_ptr<Recording> open_recording(const std::string& path, const RecordingConfig& config = {});
 
 }  // namespace dynslam

@@ -29,9 +29,7 @@ Eigen::Quaterniond read_quaternion(CdrReader& cdr) {
   return {cdr.number<double>(), x, y, z};
 }
 
-bool is_near_unit(const Eigen::Quaterniond& q) {
-  return std::abs(q.norm() - 1.0) <= kUnitTolerance;
-}
+bool is_near_unit(const Eigen::Quaterniond& q) { return std::abs(q.norm() - 1.0) <= kUnitTolerance; }
 
 /// A limit that a driver left unset (zero, NaN) does not limit.
 float usable_max(float range_max_m) {

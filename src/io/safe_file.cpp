@@ -22,9 +22,7 @@ std::string cannot_write(const std::string& path, int error) {
   return "cannot write to " + path + ": " + std::generic_category().message(error);
 }
 
-std::string temporary_name(const std::string& name) {
-  return "." + name + ".partial";
-}
+std::string temporary_name(const std::string& name) { return "." + name + ".partial"; }
 
 /// A file that is being written; errors are runtime_errors that name `shown_path`.
 class FileInWork {

@@ -16,9 +16,7 @@ std::string_view without_slash(std::string_view name) {
   return name;
 }
 
-bool is_name(std::string_view name) {
-  return !name.empty() && name.size() <= kMaxNameLength;
-}
+bool is_name(std::string_view name) { return !name.empty() && name.size() <= kMaxNameLength; }
 
 }  // namespace
 

@@ -24,8 +24,8 @@ struct ReplayResult {
   std::size_t local_maps = 0;
   std::size_t local_maps_active = 0;
 
-  std::uint64_t inserted = 0;  ///< scans drawn into the map; the others only got a pose
-  std::vector<float> scan_ms;  ///< of each scan, reading not included
+  std::uint64_t inserted = 0;               ///< scans drawn into the map; the others only got a pose
+  std::vector<float> scan_ms;               ///< of each scan, reading not included
   std::map<std::string, double> stages_ms;  ///< mean over all scans
   double wall_s = 0.0;
   double cpu_s = 0.0;

@@ -12,8 +12,8 @@ namespace dynslam {
 
 using Scores16 = std::array<std::uint32_t, 16>;
 
-/// For each of 16 neighbouring x shifts: the sum over all points of the byte at `row[offset + shift]`. One 16-byte
-/// load a point; sums are kept in 16 bits and emptied before they can run over.
+/// For each of 16 neighbouring x shifts: the sum over all points of the byte at `row[offset + shift]`. One
+/// 16-byte load a point; sums are kept in 16 bits and emptied before they can run over.
 inline Scores16 score_16_shifts(const std::uint8_t* row, std::span<const std::int32_t> offsets) {
   static_assert(std::endian::native == std::endian::little, "bytes are widened by interleaving with zeros");
   using Bytes = std::uint8_t __attribute__((vector_size(16)));
@@ -27,7 +27,8 @@ inline Scores16 score_16_shifts(const std::uint8_t* row, std::span<const std::in
     for (std::size_t i = done; i < end; ++i) {
       Bytes b;
       std::memcpy(&b, row + offsets[i], sizeof b);
-      low += reinterpret_cast<Words>(__builtin_shufflevector(b, zero, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23));
+      low += reinterpret_cast<Words>(
+          __builtin_shufflevector(b, zero, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23));
       high += reinterpret_cast<Words>(
           __builtin_shufflevector(b, zero, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31));
     }

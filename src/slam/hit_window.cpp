@@ -45,7 +45,8 @@ void pool_row(const std::uint8_t* from, std::ptrdiff_t stride, std::uint8_t* to)
       std::memcpy(&row, from + r * stride + i, sizeof row);
       best = larger(best, row);
     }
-    // Each byte against its neighbour, then each pair against its neighbour: every byte of four becomes their maximum.
+    // Each byte against its neighbour, then each pair against its neighbour: every byte of four becomes their
+    // maximum.
     const Pairs pairs = reinterpret_cast<Pairs>(best);
     best = larger(best, reinterpret_cast<Bytes>(pairs << 8 | pairs >> 8));
     const Fours fours = reinterpret_cast<Fours>(best);
@@ -61,7 +62,8 @@ void HitWindow::shape(int chunks_wide, int chunks_high, int side) {
   chunks_wide_ = chunks_wide;
   stride_ = chunks_wide * side;
   height_ = chunks_high * side;
-  wanted_.assign(static_cast<std::size_t>(chunks_wide) * static_cast<std::size_t>(chunks_high * kChunkSide / kBand), 0);
+  wanted_.assign(
+      static_cast<std::size_t>(chunks_wide) * static_cast<std::size_t>(chunks_high * kChunkSide / kBand), 0);
   const std::size_t cells = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_);
   if (cells > capacity_) {
     capacity_ = cells + cells / 2;
@@ -69,9 +71,10 @@ void HitWindow::shape(int chunks_wide, int chunks_high, int side) {
   }
 }
 
-void HitWindow::load(const ChunkedGrid& grid, std::span<const MatchPoint> points, const Pose2& grid_T_robot, float reach,
-                     float turn_rad, float gain, std::uint8_t unknown) {
-  const auto c = static_cast<float>(std::cos(grid_T_robot.yaw)), s = static_cast<float>(std::sin(grid_T_robot.yaw));
+void HitWindow::load(const ChunkedGrid& grid, std::span<const MatchPoint> points, const Pose2& grid_T_robot,
+                     float reach, float turn_rad, float gain, std::uint8_t unknown) {
+  const auto c = static_cast<float>(std::cos(grid_T_robot.yaw)),
+             s = static_cast<float>(std::sin(grid_T_robot.yaw));
   float min_x = 0, max_x = 0, min_y = 0, max_y = 0, farthest2 = 0;
   for (const MatchPoint& p : points) {
     const float x = c * p.x - s * p.y, y = s * p.x + c * p.y;
@@ -86,12 +89,15 @@ void HitWindow::load(const ChunkedGrid& grid, std::span<const MatchPoint> points
   shape(box.width(), box.height(), kChunkSide);
   first_ = first_cell(box.min);
 
-  const auto x0 = static_cast<float>(grid_T_robot.x - first_.x), y0 = static_cast<float>(grid_T_robot.y - first_.y);
+  const auto x0 = static_cast<float>(grid_T_robot.x - first_.x),
+             y0 = static_cast<float>(grid_T_robot.y - first_.y);
   for (const MatchPoint& p : points) {
     const float x = x0 + c * p.x - s * p.y, y = y0 + s * p.x + c * p.y;
     const float around = reach + turn_rad * (std::abs(p.x) + std::abs(p.y)) + 4;
-    const int left = static_cast<int>(x - around) >> kChunkBits, right = static_cast<int>(x + around) >> kChunkBits;
-    const int low = static_cast<int>(y - around) >> kBandBits, high = static_cast<int>(y + around) >> kBandBits;
+    const int left = static_cast<int>(x - around) >> kChunkBits,
+              right = static_cast<int>(x + around) >> kChunkBits;
+    const int low = static_cast<int>(y - around) >> kBandBits,
+              high = static_cast<int>(y + around) >> kBandBits;
     want({std::max(0, left), std::max(0, low)}, {right, high});
   }
   for (int band = 0; band < height_ / kBand; ++band) {
@@ -104,9 +110,11 @@ void HitWindow::load(const ChunkedGrid& grid, std::span<const MatchPoint> points
 }
 
 void HitWindow::want(CellIndex low, CellIndex high) {
-  const int last_band = std::min(high.y, height_ / kBand - 1), last_chunk = std::min(high.x, chunks_wide_ - 1);
+  const int last_band = std::min(high.y, height_ / kBand - 1),
+            last_chunk = std::min(high.x, chunks_wide_ - 1);
   for (int band = low.y; band <= last_band; ++band) {
-    for (int cx = low.x; cx <= last_chunk; ++cx) wanted_[static_cast<std::size_t>(band * chunks_wide_ + cx)] = 1;
+    for (int cx = low.x; cx <= last_chunk; ++cx)
+      wanted_[static_cast<std::size_t>(band * chunks_wide_ + cx)] = 1;
   }
 }
 
@@ -135,8 +143,8 @@ void HitWindow::pool(const HitWindow& fine) {
     const int band = y * kPool / kBand;
     for (int k = 0; k < chunks_wide_; ++k) {
       if (!fine.wanted_[static_cast<std::size_t>(band * chunks_wide_ + k)]) continue;
-      pool_row(fine.data() + static_cast<std::ptrdiff_t>(y * kPool) * fine.stride() + k * kChunkSide, fine.stride(),
-               data_.get() + static_cast<std::ptrdiff_t>(y) * stride_ + k * kSide);
+      pool_row(fine.data() + static_cast<std::ptrdiff_t>(y * kPool) * fine.stride() + k * kChunkSide,
+               fine.stride(), data_.get() + static_cast<std::ptrdiff_t>(y) * stride_ + k * kSide);
     }
   }
 }

@@ -18,19 +18,20 @@ struct MatchPoint {
   float weight = 1.0F;  ///< near surfaces get many beams a cell; together they count as one or two
 };
 
-/// A copy of the hit plane around the points of a scan in one piece of memory, chunk seams gone, so that a row of it
-/// can be loaded 16 cells at a time. Only what the points can reach is copied; the rest holds what it holds.
-/// Positions are in cells from the window's lower left cell. Keeps its memory from one call to the next.
+/// A copy of the hit plane around the points of a scan in one piece of memory, chunk seams gone, so that a
+/// row of it can be loaded 16 cells at a time. Only what the points can reach is copied; the rest holds what
+/// it holds. Positions are in cells from the window's lower left cell. Keeps its memory from one call to the
+/// next.
 class HitWindow {
  public:
   /// Cells right of a position that a 16-lane load may read.
   static constexpr int kLanes = 16;
 
-  /// Copies what `points`, at grid_T_robot (x, y in cells), can reach when moved by up to `reach` cells either way and
-  /// turned by up to `turn_rad`. Bytes are multiplied by `gain`, up to 255; cells that were
+  /// Copies what `points`, at grid_T_robot (x, y in cells), can reach when moved by up to `reach` cells
+  /// either way and turned by up to `turn_rad`. Bytes are multiplied by `gain`, up to 255; cells that were
   /// never seen become `unknown` instead of 0.
-  void load(const ChunkedGrid& grid, std::span<const MatchPoint> points, const Pose2& grid_T_robot, float reach,
-            float turn_rad, float gain = 1, std::uint8_t unknown = 0);
+  void load(const ChunkedGrid& grid, std::span<const MatchPoint> points, const Pose2& grid_T_robot,
+            float reach, float turn_rad, float gain = 1, std::uint8_t unknown = 0);
   /// Side of the blocks of cells that pool() puts into one.
   static constexpr int kPool = 4;
   /// The maximum of each block of kPool by kPool cells of `fine`, where `fine` holds something.

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/clock_jump.h"
+
 namespace dynslam {
 
 void ImuTrack::add(const ImuSample& sample) {
+  if (!samples_.empty() && is_clock_jump(samples_.back().stamp, sample.stamp)) samples_.clear();
   if (!samples_.empty() && sample.stamp <= samples_.back().stamp) {
     ++out_of_order_;
     return;
@@ -18,8 +21,8 @@ void ImuTrack::add(const ImuSample& sample) {
   while (samples_.front().stamp + kKept < sample.stamp) samples_.pop_front();
 }
 
-/// Compares the rates to both neighbours and takes the lower: only where both are beyond belief is the sample itself
-/// at fault, and not the one before or after it (thesis 4.1.1).
+/// Compares the rates to both neighbours and takes the lower: only where both are beyond belief is the sample
+/// itself at fault, and not the one before or after it (thesis 4.1.1).
 void ImuTrack::smooth_last_but_one() {
   const std::size_t n = samples_.size();
   if (n < 3) return;
@@ -35,7 +38,8 @@ void ImuTrack::smooth_last_but_one() {
 }
 
 std::optional<double> ImuTrack::heading_at(Time t) const {
-  if (samples_.size() < 2 || t < samples_.front().stamp || t > samples_.back().stamp + kCarryOn) return std::nullopt;
+  if (samples_.size() < 2 || t < samples_.front().stamp || t > samples_.back().stamp + kCarryOn)
+    return std::nullopt;
   auto after = std::lower_bound(samples_.begin(), samples_.end(), t,
                                 [](const Heading& h, Time time) { return h.stamp < time; });
   if (after == samples_.begin()) ++after;

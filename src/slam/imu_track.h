@@ -10,20 +10,21 @@
 
 namespace dynslam {
 
-/// The last seconds of the IMU's heading: spikes smoothed (thesis 4.1.1), made continuous over full turns (thesis,
-/// listing 4.1), interpolated at any time in between. One thread.
+/// The last seconds of the IMU's heading: spikes smoothed (thesis 4.1.1), made continuous over full turns
+/// (thesis, listing 4.1), interpolated at any time in between. One thread.
 class ImuTrack {
  public:
-  /// Samples that do not advance in time are dropped and counted.
+  /// Samples that do not advance in time are dropped and counted; a clock that was set back starts the track
+  /// anew.
   void add(const ImuSample& sample);
 
   bool empty() const { return samples_.empty(); }
   /// REQUIRES: !empty().
   Time newest() const { return samples_.back().stamp; }
 
-  /// Heading at a time, continuous from call to call, in the IMU's own frame. Past the newest sample it is carried on
-  /// with the last rate, for up to kCarryOn; nothing is said farther out, across a gap longer than kLongestGap, or
-  /// before the oldest sample kept.
+  /// Heading at a time, continuous from call to call, in the IMU's own frame. Past the newest sample it is
+  /// carried on with the last rate, for up to kCarryOn; nothing is said farther out, across a gap longer than
+  /// kLongestGap, or before the oldest sample kept.
   std::optional<double> heading_at(Time t) const;
 
   std::uint64_t spikes_smoothed() const { return spikes_; }
@@ -32,7 +33,8 @@ class ImuTrack {
   static constexpr Duration kKept = std::chrono::seconds(4);
   static constexpr Duration kCarryOn = std::chrono::milliseconds(60);
   static constexpr Duration kLongestGap = std::chrono::milliseconds(150);
-  /// A single sample that lies this far off both its neighbours' course is a spike: no indoor robot turns so fast.
+  /// A single sample that lies this far off both its neighbours' course is a spike: no indoor robot turns so
+  /// fast.
   static constexpr double kSpikeRate_radps = 6.0;
 
  private:

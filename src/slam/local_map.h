@@ -7,13 +7,14 @@
 
 namespace dynslam {
 
-/// A local map lives for some seconds, too short for the building to change: what counts is that a wall's cells tell how
-/// often each was hit, so they fill up slowly and forget little. Measured: errors halve against the global map's rule.
+/// A local map lives for some seconds, too short for the building to change: what counts is that a wall's
+/// cells tell how often each was hit, so they fill up slowly and forget little. Measured: errors halve
+/// against the global map's rule.
 inline constexpr CellRule kLocalMapRule{.gain = 10, .loss = 3};
 
 /// A piece of the building as seen over a few dozen scans, short enough to have no drift worth speaking of.
-/// Its cells are drawn in the frame that poses were given in when it was begun; `map_T_origin` is the robot's pose then
-/// and there.
+/// Its cells are drawn in the frame that poses were given in when it was begun; `map_T_origin` is the robot's
+/// pose then and there.
 struct LocalMap {
   LocalMap(double cell_size_m, std::size_t max_chunks, const Pose2& origin, Time begin)
       : grid(cell_size_m, max_chunks, kLocalMapRule), map_T_origin(origin), begun(begin) {}

@@ -7,8 +7,8 @@
 namespace dynslam {
 namespace {
 
-// How wrong each source may be, from what indoor robots of this size do. Speeds change by accelerating: what the last
-// velocity says is off by half of it times time squared.
+// How wrong each source may be, from what indoor robots of this size do. Speeds change by accelerating: what
+// the last velocity says is off by half of it times time squared.
 constexpr double kAcceleration_mps2 = 1.0;
 constexpr double kTurnAcceleration_radps2 = 6.0;
 constexpr double kLongestCarryOn_s = 1.0;
@@ -44,7 +44,8 @@ Pose2 MotionModel::carried_on(double seconds) const {
 MatchPrior MotionModel::expect(Time t) const {
   const double dt = to_seconds(t - time_);
   Pose2 step = carried_on(dt);
-  const double unsure_s = std::min(dt, 2.0);
+  const double unsure_s =
+      dt < 0 ? 1.0 : std::min(dt, 2.0);  // back in time: the clock was set, nothing is known
   MatchPrior prior;
   prior.sigma_xy_m = 0.02 + 0.5 * kAcceleration_mps2 * unsure_s * unsure_s;
   prior.sigma_yaw_rad = 0.005 + std::min(0.5, 0.5 * kTurnAcceleration_radps2 * unsure_s * unsure_s);

@@ -12,9 +12,9 @@
 
 namespace dynslam {
 
-/// What is known of the robot's motion without looking at the map: IMU heading, wheel odometry, and the velocity that
-/// the last matches showed. Each has its say where it exists: yaw from the IMU, else the wheels, else the velocity;
-/// translation from the wheels, else the velocity. One thread.
+/// What is known of the robot's motion without looking at the map: IMU heading, wheel odometry, and the
+/// velocity that the last matches showed. Each has its say where it exists: yaw from the IMU, else the
+/// wheels, else the velocity; translation from the wheels, else the velocity. One thread.
 class MotionModel {
  public:
   void add(const ImuSample& sample) { imu_.add(sample); }
@@ -23,7 +23,8 @@ class MotionModel {
   const ImuTrack& imu() const { return imu_; }
   const OdometryTrack& odometry() const { return odometry_; }
 
-  /// Where the robot should be at `t`, and how far off that may be. The pose of the last fix before there is motion.
+  /// Where the robot should be at `t`, and how far off that may be. The pose of the last fix before there is
+  /// motion.
   MatchPrior expect(Time t) const;
   /// The same without the wheels: what is left when they contradict the scan. Looks about widely.
   MatchPrior expect_without_wheels(Time t) const;

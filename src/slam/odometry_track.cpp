@@ -3,9 +3,12 @@
 
 #include <algorithm>
 
+#include "slam/clock_jump.h"
+
 namespace dynslam {
 
 void OdometryTrack::add(const OdometrySample& sample) {
+  if (!samples_.empty() && is_clock_jump(samples_.back().stamp, sample.stamp)) samples_.clear();
   if (!samples_.empty() && sample.stamp < samples_.back().stamp) {
     ++out_of_order_;
     return;
@@ -17,7 +20,8 @@ void OdometryTrack::add(const OdometrySample& sample) {
 }
 
 std::optional<Pose2> OdometryTrack::pose_at(Time t) const {
-  if (samples_.empty() || t < samples_.front().stamp || t > samples_.back().stamp + kCarryOn) return std::nullopt;
+  if (samples_.empty() || t < samples_.front().stamp || t > samples_.back().stamp + kCarryOn)
+    return std::nullopt;
   const auto after = std::lower_bound(samples_.begin(), samples_.end(), t,
                                       [](const OdometrySample& s, Time time) { return s.stamp < time; });
   if (after == samples_.end()) return samples_.back().odom_T_robot;

@@ -15,7 +15,8 @@ class OdometryTrack {
   /// Of two samples with one stamp the later counts; samples from the past are dropped and counted.
   void add(const OdometrySample& sample);
 
-  /// odom_T_robot; nothing before the oldest kept or later than kCarryOn after the newest (which is then taken as it is).
+  /// odom_T_robot; nothing before the oldest kept or later than kCarryOn after the newest (which is then
+  /// taken as it is).
   std::optional<Pose2> pose_at(Time t) const;
 
   std::uint64_t out_of_order() const { return out_of_order_; }

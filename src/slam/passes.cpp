@@ -64,12 +64,14 @@ CorrectedScan egomotion_pass(const Scan& scan, const std::vector<Ray>& rays, con
     const float begin_s = rays[begin].time_s, next_s = rays[std::min(end, rays.size() - 1)].time_s;
     const Pose2 next = next_s == begin_s ? here : lidar_at(next_s);
     const auto turned = static_cast<float>(turn(here.yaw, next.yaw));
-    const Eigen::Vector2f from = here.translation().cast<float>(), way = (next.translation() - here.translation()).cast<float>();
+    const Eigen::Vector2f from = here.translation().cast<float>(),
+                          way = (next.translation() - here.translation()).cast<float>();
     for (std::size_t i = begin; i < end; ++i) {
       const float share = next_s == begin_s ? 0.0F : (rays[i].time_s - begin_s) / (next_s - begin_s);
       const Eigen::Vector2f at = from + share * way;
       out.ends_lidar[i] = {at.x(), at.y(), 0, rays[i].range_m, rays[i].hit};
-      angles[static_cast<Eigen::Index>(i)] = static_cast<float>(here.yaw) + share * turned + rays[i].angle_rad;
+      angles[static_cast<Eigen::Index>(i)] =
+          static_cast<float>(here.yaw) + share * turned + rays[i].angle_rad;
     }
     here = next;
   }
@@ -98,13 +100,15 @@ void stray_ray_pass(CorrectedScan& scan) {
     const RayEnd &a = ends[i - 1], &b = ends[i + 1];
     if (b.bearing_rad - a.bearing_rad > widest) return false;
     const float across = std::hypot(b.x_m - a.x_m, b.y_m - a.y_m);
-    return ends[i].range_m > std::max(a.range_m, b.range_m) + kBeyond_m && across < kNarrow_m && a.hit && b.hit;
+    return ends[i].range_m > std::max(a.range_m, b.range_m) + kBeyond_m && across < kNarrow_m && a.hit &&
+           b.hit;
   };
   std::vector<std::size_t> stray;
   for (std::size_t i = 1; i + 1 < ends.size(); ++i) {
     if (is_stray(i)) stray.push_back(i);
   }
-  for (auto i = stray.rbegin(); i != stray.rend(); ++i) ends.erase(ends.begin() + static_cast<std::ptrdiff_t>(*i));
+  for (auto i = stray.rbegin(); i != stray.rend(); ++i)
+    ends.erase(ends.begin() + static_cast<std::ptrdiff_t>(*i));
 }
 
 }  // namespace dynslam

@@ -10,7 +10,8 @@
 #include "grid/free_space.h"
 #include "slam/slam_config.h"
 
-/// The steps between the lidar's raw beams and rays that can be drawn (thesis 4.1.1). Each is a function of its input.
+/// The steps between the lidar's raw beams and rays that can be drawn (thesis 4.1.1). Each is a function of
+/// its input.
 namespace dynslam {
 
 /// A ray as measured from the lidar at its own time, after clamping.
@@ -43,12 +44,12 @@ Time reference_time(const Scan& scan);
 /// Mean angle between neighbouring beams, radians.
 double beam_step(const Scan& scan);
 
-/// Egomotion correction: each ray from the pose the lidar had at the ray's own time (thesis, equations 4.1 and 4.2,
-/// with the linear motion the thesis left out).
+/// Egomotion correction: each ray from the pose the lidar had at the ray's own time (thesis, equations 4.1
+/// and 4.2, with the linear motion the thesis left out).
 CorrectedScan egomotion_pass(const Scan& scan, const std::vector<Ray>& rays, const MotionInScan& motion);
 
-/// Drops rays that go through a surface which the rays on both sides show closed: reflections and crosstalk. What a ray
-/// saw through a gap that is wider than two beams stays.
+/// Drops rays that go through a surface which the rays on both sides show closed: reflections and crosstalk.
+/// What a ray saw through a gap that is wider than two beams stays.
 void stray_ray_pass(CorrectedScan& scan);
 
 }  // namespace dynslam

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "slam/scan_matcher.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "slam/byte_search.h"
 #include "slam/smooth_hits.h"
@@ -13,23 +14,25 @@ namespace dynslam {
 namespace {
 
 constexpr int kCoarse = HitWindow::kPool;  ///< side of a cell of the wide search, in cells
-constexpr int kMostFineHalf = 7;     ///< a row of 2 * 7 + 1 shifts is one load
+constexpr int kMostFineHalf = 7;           ///< a row of 2 * 7 + 1 shifts is one load
 constexpr std::size_t kMostSparse = 360;
 constexpr std::size_t kCandidates = 4;
 constexpr int kMostIterations = 10;
 constexpr int kLastSteps = 2;      ///< of these, with all points: all but the first
 constexpr double kSettled = 0.05;  ///< cells: a step this short is followed by the last ones
 constexpr int kStray = 3;  ///< cells that refinement may move: more means that it follows something else
-/// In a wide search a point in space that was never seen is worth this much, of 255 for one on a hit; in free space it
-/// is worth nothing. Otherwise the search would rather stay where the map is known than follow the robot into the new.
+/// In a wide search a point in space that was never seen is worth this much, of 255 for one on a hit; in free
+/// space it is worth nothing. Otherwise the search would rather stay where the map is known than follow the
+/// robot into the new.
 constexpr std::uint8_t kUnknownWorth = 100;
 /// Beams next to each other err together: a point counts as this much of an independent one.
 constexpr double kEvidence = 0.3;
-constexpr float kOnHit = 0.03F;  ///< a point this much on hits is on the map: half a cell beside a single look
+constexpr float kOnHit =
+    0.03F;  ///< a point this much on hits is on the map: half a cell beside a single look
 
-/// What hit bytes are multiplied by before matching. On a map that saw each wall some twenty times, counts show where in
-/// the noise the wall is. On a map of a few looks they say little but that there is a wall, and the more one-look cells
-/// count like any other the better; in between it is a matter of degree.
+/// What hit bytes are multiplied by before matching. On a map that saw each wall some twenty times, counts
+/// show where in the noise the wall is. On a map of a few looks they say little but that there is a wall, and
+/// the more one-look cells count like any other the better; in between it is a matter of degree.
 float gain_for(double usual_hit) {
   constexpr double kSureHit = 180.0, kMost = 20.0;
   const double short_of = kSureHit / std::max(1.0, usual_hit);
@@ -48,7 +51,8 @@ MatchResult ScanMatcher::match(const ChunkedGrid& map, std::span<const MatchPoin
   const float gain = gain_for(prior.usual_hit);
   MatchResult result;
   Eigen::Matrix3d information =
-      Eigen::Vector3d(expected_.xy_information, expected_.xy_information, expected_.yaw_information).asDiagonal();
+      Eigen::Vector3d(expected_.xy_information, expected_.xy_information, expected_.yaw_information)
+          .asDiagonal();
   Pose2 found = expected;
   if (!points_robot.empty() && map.chunk_count() > 0) {
     const double half_xy = std::max(config_.search_half_width_m / cell, config_.window_sigmas * sigma_cells);
@@ -73,7 +77,8 @@ MatchResult ScanMatcher::match(const ChunkedGrid& map, std::span<const MatchPoin
   return result;
 }
 
-/// The exhaustive search needs to find the right cell, no more: some hundred points, evenly spread, are enough.
+/// The exhaustive search needs to find the right cell, no more: some hundred points, evenly spread, are
+/// enough.
 void ScanMatcher::choose_sparse(std::span<const MatchPoint> points) {
   float total = 0;
   for (const MatchPoint& p : points) total += p.weight;
@@ -96,8 +101,9 @@ void ScanMatcher::choose_sparse(std::span<const MatchPoint> points) {
   far_cells_ = std::max(10.0F, *far);
 }
 
-/// Scores every shift of the sparse points by whole cells and every yaw of the range, against the prior. Returns the
-/// best candidates, best first, at most one a yaw. `cell_factor`: cells of the map to one of this window.
+/// Scores every shift of the sparse points by whole cells and every yaw of the range, against the prior.
+/// Returns the best candidates, best first, at most one a yaw. `cell_factor`: cells of the map to one of this
+/// window.
 std::vector<ScanMatcher::Candidate> ScanMatcher::search(const HitWindow& window, const Pose2& centre,
                                                         const SearchRange& range, double cell_factor,
                                                         std::size_t candidates) {
@@ -111,27 +117,31 @@ std::vector<ScanMatcher::Candidate> ScanMatcher::search(const HitWindow& window,
     const double yaw = centre.yaw + k * range.yaw_step_rad;
     const double yaw_off = turn(expected_.window_T_robot.yaw, yaw);
     const double yaw_cost = 0.5 * expected_.yaw_information * yaw_off * yaw_off;
-    const auto c = static_cast<float>(std::cos(yaw)) * per_cell, s = static_cast<float>(std::sin(yaw)) * per_cell;
+    const auto c = static_cast<float>(std::cos(yaw)) * per_cell,
+               s = static_cast<float>(std::sin(yaw)) * per_cell;
     const auto x0 = static_cast<float>(centre.x), y0 = static_cast<float>(centre.y);
     std::size_t inside = 0;
     for (const MatchPoint& p : sparse_) {
-      const int x = static_cast<int>(x0 + c * p.x - s * p.y) - range.half_cells;  // the window has no negative cells
+      const int x =
+          static_cast<int>(x0 + c * p.x - s * p.y) - range.half_cells;  // the window has no negative cells
       const int y = static_cast<int>(y0 + s * p.x + c * p.y);
-      if (!window.contains(x, y - range.half_cells) || !window.contains(x + width - 1, y + range.half_cells)) continue;
+      if (!window.contains(x, y - range.half_cells) || !window.contains(x + width - 1, y + range.half_cells))
+        continue;
       offsets_[inside++] = y * window.stride() + x;
     }
     Candidate best{centre, -1e300};
     for (int dy = -range.half_cells; dy <= range.half_cells; ++dy) {
       const double off_y = centre.y + dy - expected_.window_T_robot.y / cell_factor;
       for (int left = 0; left < width; left += HitWindow::kLanes) {
-        const Scores16 scores = score_16_shifts(window.data() + static_cast<std::ptrdiff_t>(dy) * window.stride() + left,
-                                                {offsets_.data(), inside});
+        const Scores16 scores =
+            score_16_shifts(window.data() + static_cast<std::ptrdiff_t>(dy) * window.stride() + left,
+                            {offsets_.data(), inside});
         const int lanes = std::min(HitWindow::kLanes, width - left);
         for (int i = 0; i < lanes; ++i) {
           const double dx = left + i - range.half_cells;
           const double off_x = centre.x + dx - expected_.window_T_robot.x / cell_factor;
-          const double score =
-              worth * scores[static_cast<std::size_t>(i)] - xy_cost * (off_x * off_x + off_y * off_y) - yaw_cost;
+          const double score = worth * scores[static_cast<std::size_t>(i)] -
+                               xy_cost * (off_x * off_x + off_y * off_y) - yaw_cost;
           if (score > best.score) best = {{centre.x + dx, centre.y + dy, yaw}, score};
         }
       }
@@ -150,8 +160,8 @@ ScanMatcher::Candidate ScanMatcher::search_all(double half_xy_cells, double half
   const Pose2& centre = expected_.window_T_robot;
   const double fine_yaw = 1.0 / far_cells_;
   if (half_xy_cells <= kMostFineHalf && half_yaw_rad / fine_yaw <= 16) {
-    const SearchRange range{static_cast<int>(std::ceil(half_xy_cells)), static_cast<int>(std::ceil(half_yaw_rad / fine_yaw)),
-                            fine_yaw};
+    const SearchRange range{static_cast<int>(std::ceil(half_xy_cells)),
+                            static_cast<int>(std::ceil(half_yaw_rad / fine_yaw)), fine_yaw};
     return search(fine_, centre, range, 1, 1).front();
   }
   coarse_.pool(fine_);
@@ -159,7 +169,8 @@ ScanMatcher::Candidate ScanMatcher::search_all(double half_xy_cells, double half
   const SearchRange wide{static_cast<int>(std::ceil(half_xy_cells / kCoarse)),
                          static_cast<int>(std::ceil(half_yaw_rad / coarse_yaw)), coarse_yaw};
   Candidate best{centre, -1e300};
-  for (const Candidate& r : search(coarse_, {centre.x / kCoarse, centre.y / kCoarse, centre.yaw}, wide, kCoarse, kCandidates)) {
+  for (const Candidate& r :
+       search(coarse_, {centre.x / kCoarse, centre.y / kCoarse, centre.yaw}, wide, kCoarse, kCandidates)) {
     const Pose2 around{r.window_T_robot.x * kCoarse, r.window_T_robot.y * kCoarse, r.window_T_robot.yaw};
     const Candidate c = search(fine_, around, {kCoarse, kCoarse / 2 + 1, fine_yaw}, 1, 1).front();
     if (c.score > best.score) best = c;
@@ -167,10 +178,11 @@ ScanMatcher::Candidate ScanMatcher::search_all(double half_xy_cells, double half
   return best;
 }
 
-/// Newton steps up the sum of weight * smooth hit, with the prior, all in cells: with some points until it settles, then
-/// with all. Hits that are not on the map, a person's say, lie where the map is flat: they push nowhere.
-/// `information` is the prior's, and becomes that of the result.
-Pose2 ScanMatcher::refine(std::span<const MatchPoint> points, const Pose2& start, Eigen::Matrix3d& information) const {
+/// Newton steps up the sum of weight * smooth hit, with the prior, all in cells: with some points until it
+/// settles, then with all. Hits that are not on the map, a person's say, lie where the map is flat: they push
+/// nowhere. `information` is the prior's, and becomes that of the result.
+Pose2 ScanMatcher::refine(std::span<const MatchPoint> points, const Pose2& start,
+                          Eigen::Matrix3d& information) const {
   const Pose2& prior = expected_.window_T_robot;
   const Eigen::Matrix3d prior_info = information;
   Pose2 pose = start;
@@ -197,7 +209,8 @@ void ScanMatcher::judge(const ChunkedGrid& map, const Pose2& pose, MatchResult& 
   double all = 0, known = 0, matched = 0, smooth = 0, hits = 0, hit_bytes = 0;
   for (const MatchPoint& p : sparse_) {
     const float dx = c * p.x - s * p.y, dy = s * p.x + c * p.y;
-    const float hit = smooth_hit(fine_, static_cast<float>(in_window.x) + dx, static_cast<float>(in_window.y) + dy);
+    const float hit =
+        smooth_hit(fine_, static_cast<float>(in_window.x) + dx, static_cast<float>(in_window.y) + dy);
     all += 1;
     const CellIndex cell{static_cast<std::int32_t>(std::floor(pose.x + dx)),
                          static_cast<std::int32_t>(std::floor(pose.y + dy))};

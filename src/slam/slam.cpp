@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
+
+#include "base/error.h"
 
 namespace dynslam {
 namespace {
@@ -11,6 +14,8 @@ namespace {
 /// How long a scan waits for an IMU that has stopped talking, counted in the time of other samples.
 constexpr Duration kImuPatience = std::chrono::milliseconds(150);
 constexpr std::size_t kMostPoints = 2000;
+/// The bitmaps of a scan grow with the square of this: 32 MiB.
+constexpr int kMostCells = 8000;
 /// Less than this since the last scan that counted: the robot stands.
 constexpr double kStanding_m = 0.02;
 constexpr double kStanding_rad = 0.01;
@@ -19,10 +24,13 @@ constexpr int kMostUnmatched = 20;
 /// Below this fit the prior is doubted; it is set aside for an answer that fits so much better.
 constexpr double kPoorFit = 0.25;
 constexpr double kClearlyBetter = 0.2;
+/// How fast the usual hit follows the scans.
+constexpr double kUsualShare = 0.2;
 
 /// What a scan has to offer for matching: its hits, in the robot's frame and in cells.
 void choose_points(const CorrectedScan& scan, double cell_size_m, std::vector<MatchPoint>& points) {
-  const double c = std::cos(scan.robot_T_lidar.yaw) / cell_size_m, s = std::sin(scan.robot_T_lidar.yaw) / cell_size_m;
+  const double c = std::cos(scan.robot_T_lidar.yaw) / cell_size_m,
+               s = std::sin(scan.robot_T_lidar.yaw) / cell_size_m;
   const Vector2 at = scan.robot_T_lidar.translation() / cell_size_m;
   const std::size_t stride = 1 + scan.ends_lidar.size() / kMostPoints;
   const double arc_cells = static_cast<double>(stride) * scan.beam_step_rad / cell_size_m;
@@ -30,7 +38,8 @@ void choose_points(const CorrectedScan& scan, double cell_size_m, std::vector<Ma
   for (std::size_t i = 0; i < scan.ends_lidar.size(); i += stride) {
     const RayEnd& e = scan.ends_lidar[i];
     if (!e.hit) continue;
-    points.push_back({static_cast<float>(at.x() + c * e.x_m - s * e.y_m), static_cast<float>(at.y() + s * e.x_m + c * e.y_m),
+    points.push_back({static_cast<float>(at.x() + c * e.x_m - s * e.y_m),
+                      static_cast<float>(at.y() + s * e.x_m + c * e.y_m),
                       static_cast<float>(std::min(1.0, arc_cells * e.range_m))});
   }
 }
@@ -38,90 +47,106 @@ void choose_points(const CorrectedScan& scan, double cell_size_m, std::vector<Ma
 /// Share of the points that speak for a match less the share that speak against it.
 double fit_of(const MatchResult& result) { return result.known * (2 * result.matched - 1); }
 
+/// Enough of the scan lies in space the map knows, and enough of that on what the map holds.
+bool is_believable(const MatchResult& result) { return result.known > 0.1 && result.matched > 0.4; }
+
 }  // namespace
 
 Slam::Slam(const SlamConfig& config, StageWatch* watch)
     : config_(config),
       watch_(watch),
       matcher_({.search_half_width_m = config.search_half_width_m}),
-      global_map_(config.cell_size_m, static_cast<std::size_t>(config.max_chunks)) {}
+      global_map_(config.cell_size_m, static_cast<std::size_t>(config.max_chunks)) {
+  if (config.trusted_range_m > kMostCells * config.cell_size_m) {
+    throw InputError("slam.trusted_range_m: more than " + std::to_string(kMostCells) + " cells of slam.cell_size_m");
+  }
+}
 
 void Slam::add(const ImuSample& sample) {
-  newest_sample_ = std::max(newest_sample_, sample.stamp);
+  note_time(sample.stamp);
   motion_.add(sample);
 }
 
 void Slam::add(const OdometrySample& sample) {
-  newest_sample_ = std::max(newest_sample_, sample.stamp);
+  note_time(sample.stamp);
   motion_.add(sample);
 }
 
 void Slam::add(Scan scan) {
-  newest_sample_ = std::max(newest_sample_, scan.stamp);
+  note_time(scan.stamp);
   waiting_.push_back(std::move(scan));
+}
+
+void Slam::note_time(Time t) {
+  newest_sample_ = is_clock_jump(newest_sample_, t) ? t : std::max(newest_sample_, t);
 }
 
 bool Slam::is_ready(const Scan& scan) const {
   const Time end = scan.stamp + from_seconds(scan.beams.empty() ? 0.0 : scan.beams.back().time_s);
   const bool covered = motion_.imu().empty() || motion_.imu().newest() >= end;
-  return covered || newest_sample_ > end + kImuPatience;
+  return covered || newest_sample_ > end + kImuPatience || is_clock_jump(end, newest_sample_);
 }
 
 std::optional<ScanResult> Slam::next(bool at_end) {
   while (!waiting_.empty() && (at_end || is_ready(waiting_.front()))) {
     const Scan scan = std::move(waiting_.front());
     waiting_.pop_front();
-    if (auto result = process(scan)) return result;
+    if (is_news(scan)) return process(scan);
   }
   return std::nullopt;
 }
 
-std::optional<ScanResult> Slam::process(const Scan& scan) {
+/// Whether a scan is later than the one before. A clock that was set back by a lot starts a new count.
+bool Slam::is_news(const Scan& scan) {
   if (last_stamp_ && scan.stamp <= *last_stamp_) {
-    counters_.add("slam.scans_out_of_order");
-    return std::nullopt;
+    const bool jumped = is_clock_jump(*last_stamp_, scan.stamp);
+    counters_.add(jumped ? "slam.clock_jumps" : "slam.scans_out_of_order");
+    if (!jumped) return false;
   }
   last_stamp_ = scan.stamp;
+  return true;
+}
+
+ScanResult Slam::process(const Scan& scan) {
   enter("passes");
   const CorrectedScan corrected = correct(scan);
   choose_points(corrected, config_.cell_size_m, points_);
 
   enter("match");
+  const Fix fix = local_maps_.empty() ? first_fix(corrected.reference) : locate(corrected);
   ScanResult result;
   result.stamp = scan.stamp;
-  const bool first = local_maps_.empty();
-  MatchResult match;
-  if (first) {
-    match.score = 1.0;
-  } else {
-    match = locate(corrected);
-  }
-  result.matched = first ? !points_.empty() : is_believable(match);
-  result.score = match.score;
-  result.covariance = match.covariance;
-  const Pose2 pose = result.matched || first ? match.map_T_robot : motion_.expect(corrected.reference).map_T_robot;
-  result.map_T_robot = pose_at_stamp(scan, corrected, pose);
-  const bool has_times = !scan.beams.empty() && scan.beams.back().time_s != scan.beams.front().time_s;
-  const bool too_fast = has_times && std::abs(motion_.yaw_rate(corrected.reference)) > config_.skip_yaw_rate_radps;
-  motion_.fix(corrected.reference, pose);
+  result.map_T_robot = pose_at_stamp(scan, corrected, fix.map_T_robot);
+  result.covariance = fix.match.covariance;
+  result.score = fix.match.score;
+  result.matched = fix.matched;
 
   enter("insert");
-  unmatched_in_a_row_ = result.matched ? 0 : unmatched_in_a_row_ + 1;
-  if (!result.matched) counters_.add("slam.scans_unmatched");
-  if (too_fast) counters_.add("slam.scans_skipped_turning");
+  result.inserted = may_insert(scan, fix);
+  motion_.fix(corrected.reference, fix.map_T_robot);
+  if (result.inserted) {
+    count_scan(fix.map_T_robot, corrected.reference);
+    insert(corrected, fix.map_T_robot);
+  }
+  enter("");
+  return result;
+}
+
+/// Only what is known to be in its place is drawn, and no scan that was smeared by a fast turn.
+bool Slam::may_insert(const Scan& scan, const Fix& fix) {
+  unmatched_in_a_row_ = fix.matched ? 0 : unmatched_in_a_row_ + 1;
+  if (!fix.matched) counters_.add("slam.scans_unmatched");
   if (unmatched_in_a_row_ > kMostUnmatched) {
     counters_.add("slam.times_lost");
     local_maps_.clear();
     unmatched_in_a_row_ = 0;
-    result.matched = true;
   }
-  result.inserted = result.matched && !too_fast;
-  if (result.inserted) {
-    count_scan(pose, corrected.reference);
-    insert(corrected, pose);
+  const bool takes_time = !scan.beams.empty() && scan.beams.back().time_s != scan.beams.front().time_s;
+  if (takes_time && std::abs(motion_.yaw_rate(reference_time(scan))) > config_.skip_yaw_rate_radps) {
+    counters_.add("slam.scans_skipped_turning");
+    return false;
   }
-  enter("");
-  return result;
+  return (fix.matched || local_maps_.empty()) && !points_.empty();
 }
 
 CorrectedScan Slam::correct(const Scan& scan) {
@@ -131,27 +156,37 @@ CorrectedScan Slam::correct(const Scan& scan) {
   return corrected;
 }
 
-/// Where the scan was taken, by the map. A prior that the scan contradicts is set aside for a wider look.
-MatchResult Slam::locate(const CorrectedScan& scan) {
+/// With no map yet, the robot is where motion sensors say, at first at the origin; a scan that shows anything
+/// will do.
+Slam::Fix Slam::first_fix(Time t) {
+  Fix fix;
+  fix.map_T_robot = motion_.has_fix() ? motion_.expect(t).map_T_robot : Pose2{};
+  fix.matched = !points_.empty();
+  fix.match.score = fix.matched ? 1.0 : 0.0;
+  return fix;
+}
+
+/// Where the scan was taken, by the map. A prior that the scan contradicts is set aside for a wider look;
+/// where the map does not answer, the motion sensors' word stands.
+Slam::Fix Slam::locate(const CorrectedScan& scan) {
   const ChunkedGrid& map = local_maps_.front().grid;
   MatchPrior prior = motion_.expect(scan.reference);
   prior.usual_hit = usual_hit_;
-  MatchResult result = matcher_.match(map, points_, prior);
-  if (fit_of(result) < kPoorFit) {
+  Fix fix;
+  fix.match = matcher_.match(map, points_, prior);
+  if (fit_of(fix.match) < kPoorFit) {
     MatchPrior wide = motion_.expect_without_wheels(scan.reference);
-    wide.usual_hit = prior.usual_hit;
+    wide.usual_hit = usual_hit_;
     const MatchResult other = matcher_.match(map, points_, wide);
-    if (is_believable(other) && fit_of(other) > fit_of(result) + kClearlyBetter) {
+    if (is_believable(other) && fit_of(other) > fit_of(fix.match) + kClearlyBetter) {
       counters_.add("slam.priors_set_aside");
-      result = other;
+      fix.match = other;
     }
   }
-  if (is_believable(result)) usual_hit_ += (usual_hit_ == 0 ? 1.0 : 0.2) * (result.mean_hit - usual_hit_);
-  return result;
-}
-
-bool Slam::is_believable(const MatchResult& result) const {
-  return result.known > 0.1 && result.matched > 0.4;
+  fix.matched = is_believable(fix.match);
+  fix.map_T_robot = fix.matched ? fix.match.map_T_robot : prior.map_T_robot;
+  if (fix.matched) usual_hit_ += (usual_hit_ == 0 ? 1.0 : kUsualShare) * (fix.match.mean_hit - usual_hit_);
+  return fix;
 }
 
 void Slam::begin_local_map(const Pose2& map_T_robot, Time t) {
@@ -159,8 +194,8 @@ void Slam::begin_local_map(const Pose2& map_T_robot, Time t) {
   ++local_maps_begun_;
 }
 
-/// Keeps two local maps going, half a map apart, so that no scan is matched against an empty one. Scans taken standing
-/// are drawn but do not count.
+/// Keeps two local maps going, half a map apart, so that no scan is matched against an empty one. Scans taken
+/// standing are drawn but do not count.
 void Slam::count_scan(const Pose2& map_T_robot, Time t) {
   const Pose2 moved = last_counted_.inverse() * map_T_robot;
   const double distance = moved.translation().norm();
@@ -179,7 +214,8 @@ void Slam::count_scan(const Pose2& map_T_robot, Time t) {
     if (local_maps_.size() > 1) local_maps_.pop_front();
   }
   const LocalMap& oldest = local_maps_.front();
-  const bool half = 2 * oldest.scans >= config_.scans_per_local_map || 2 * oldest.travel_m >= config_.travel_per_local_map_m;
+  const bool half = 2 * oldest.scans >= config_.scans_per_local_map ||
+                    2 * oldest.travel_m >= config_.travel_per_local_map_m;
   if (half && local_maps_.size() < 2) begin_local_map(map_T_robot, t);
 }
 
@@ -191,7 +227,8 @@ void Slam::insert(const CorrectedScan& scan, const Pose2& map_T_robot) {
   global_map_.apply(footprint);
 }
 
-/// The scan's pose is that of its middle; its stamp is that of its first beam, a few centimetres of way earlier.
+/// The scan's pose is that of its middle; its stamp is that of its first beam, a few centimetres of way
+/// earlier.
 Pose2 Slam::pose_at_stamp(const Scan& scan, const CorrectedScan& corrected, const Pose2& map_T_robot) const {
   const Pose2 back = motion_.motion_around(corrected.reference)(scan.stamp);
   Pose2 at = map_T_robot * back;

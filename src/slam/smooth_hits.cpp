@@ -21,7 +21,8 @@ Spline spline_at(float t) {
   const float u = 1 - t;
   const float t2 = t * t, t3 = t2 * t;
   return {Floats4{u * u * u, 3 * t3 - 6 * t2 + 4, 3 * (t + t2 - t3) + 1, t3} / 6.0F,
-          Floats4{-u * u, 3 * t2 - 4 * t, 1 + 2 * t - 3 * t2, t2} / 2.0F, Floats4{u, 3 * t - 2, 1 - 3 * t, t}};
+          Floats4{-u * u, 3 * t2 - 4 * t, 1 + 2 * t - 3 * t2, t2} / 2.0F,
+          Floats4{u, 3 * t - 2, 1 - 3 * t, t}};
 }
 
 constexpr int kSplineSteps = 256;
@@ -34,7 +35,9 @@ std::array<Spline, kSplineSteps + 1> make_splines() {
 const std::array<Spline, kSplineSteps + 1> kSplines = make_splines();
 
 /// The same from a table: a step is a 256th of a cell, far below what the map can tell.
-inline const Spline& spline_near(float t) { return kSplines[static_cast<std::size_t>(static_cast<int>(t * kSplineSteps + 0.5F))]; }
+inline const Spline& spline_near(float t) {
+  return kSplines[static_cast<std::size_t>(static_cast<int>(t * kSplineSteps + 0.5F))];
+}
 
 /// The sums of the lanes of four vectors, as one vector.
 inline Floats4 lane_sums(Floats4 a, Floats4 b, Floats4 c, Floats4 d) {
@@ -69,7 +72,9 @@ inline bool load_patch(const HitWindow& window, float x, float y, Patch& patch) 
   return any != 0;
 }
 
-inline Floats4 blend(const Patch& p, Floats4 w) { return p.rows[0] * w[0] + p.rows[1] * w[1] + p.rows[2] * w[2] + p.rows[3] * w[3]; }
+inline Floats4 blend(const Patch& p, Floats4 w) {
+  return p.rows[0] * w[0] + p.rows[1] * w[1] + p.rows[2] * w[2] + p.rows[3] * w[3];
+}
 
 /// Sums over the points, in floats: the upper triangle of the information, the gradient, the score.
 struct Sums {
@@ -78,8 +83,11 @@ struct Sums {
   void add(const Patch& patch, float rx, float ry, float weight) {
     const Spline& along_x = spline_near(patch.tx);
     const Spline& along_y = spline_near(patch.ty);
-    const Floats4 value = blend(patch, along_y.value), rise = blend(patch, along_y.slope), bend = blend(patch, along_y.curve);
-    const Floats4 first = lane_sums(value * along_x.value, value * along_x.slope, rise * along_x.value, value * along_x.curve) / 255.0F;
+    const Floats4 value = blend(patch, along_y.value), rise = blend(patch, along_y.slope),
+                  bend = blend(patch, along_y.curve);
+    const Floats4 first =
+        lane_sums(value * along_x.value, value * along_x.slope, rise * along_x.value, value * along_x.curve) /
+        255.0F;
     const float f = first[0], fx = first[1], fy = first[2], fxx = first[3];
     if (f < 1e-3F) return;
     const Floats4 rest = lane_sums(rise * along_x.slope, bend * along_x.value, Floats4{}, Floats4{}) / 255.0F;
@@ -116,7 +124,8 @@ float smooth_hit(const HitWindow& window, float x, float y) {
 }
 
 HitFit fit_to_hits(const HitWindow& window, std::span<const MatchPoint> points, const Pose2& window_T_robot) {
-  const auto c = static_cast<float>(std::cos(window_T_robot.yaw)), s = static_cast<float>(std::sin(window_T_robot.yaw));
+  const auto c = static_cast<float>(std::cos(window_T_robot.yaw)),
+             s = static_cast<float>(std::sin(window_T_robot.yaw));
   const auto x0 = static_cast<float>(window_T_robot.x), y0 = static_cast<float>(window_T_robot.y);
   Sums sums;
   Patch patch;

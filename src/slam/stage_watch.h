@@ -5,7 +5,8 @@
 
 namespace dynslam {
 
-/// Told which stage of a scan begins, so that a runtime can measure what the thinking, which knows no clock, cannot.
+/// Told which stage of a scan begins, so that a runtime can measure what the thinking, which knows no clock,
+/// cannot.
 class StageWatch {
  public:
   virtual ~StageWatch() = default;

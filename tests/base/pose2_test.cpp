@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "base/pose2.h"
 
-#include <gtest/gtest.h>
-
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "support_matchers.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "base/time.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "base/angles.h"
 #include "base/counters.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "grid/chunked_grid.h"
 
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <map>
 #include <random>
 #include <thread>
+
+#include <gtest/gtest.h>
 
 #include "grid/drawn_map.h"
 
@@ -80,11 +80,14 @@ ScanFootprint random_footprint(std::mt19937& random) {
   for (int r = 0; r < f.misses.rows(); ++r) {
     for (int w = 0; w < 3; ++w) {
       const int k = kind(random);
-      f.misses.row(r)[w] = k == 0 ? 0 : k == 1 ? ~std::uint64_t{0} : (std::uint64_t{random()} << 32) | random();
+      f.misses.row(r)[w] = k == 0   ? 0
+                           : k == 1 ? ~std::uint64_t{0}
+                                    : (std::uint64_t{random()} << 32) | random();
     }
   }
   for (int i = 0; i < 40; ++i) {
-    const CellIndex c{f.misses.first().x + static_cast<int>(random() % 192), f.misses.first().y + static_cast<int>(random() % 128)};
+    const CellIndex c{f.misses.first().x + static_cast<int>(random() % 192),
+                      f.misses.first().y + static_cast<int>(random() % 128)};
     if (f.misses.test(c)) {
       f.misses.clear(c);
       f.hits.push_back(c);

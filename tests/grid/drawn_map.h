@@ -8,8 +8,8 @@
 
 namespace dynslam {
 
-/// Fills a grid from rows of text, the first row on top: '#' occupied, '.' free, ' ' unknown. The lower left cell is
-/// `low`.
+/// Fills a grid from rows of text, the first row on top: '#' occupied, '.' free, ' ' unknown. The lower left
+/// cell is `low`.
 inline void draw(ChunkedGrid& grid, const std::vector<std::string>& rows, CellIndex low = {}) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (std::size_t c = 0; c < rows[r].size(); ++c) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "grid/flood_fill.h"
 
-#include <gtest/gtest.h>
-
 #include <deque>
 #include <random>
 #include <set>
+
+#include <gtest/gtest.h>
 
 #include "grid/drawn_map.h"
 
@@ -29,11 +29,13 @@ std::set<CellIndex> brute_force(const CellBitmap& through, const std::vector<Cel
 TEST(FloodFill, StopsAtWallsAndGoesThroughDoors) {
   ChunkedGrid grid(0.02);
   const CellIndex low{-4, -3};  // the drawing straddles four chunks
-  draw(grid, {"#########",  //
-              "#...#...#",  //
-              "#...#...#",  //
-              "#...#...#",  //
-              "#########"}, low);
+  draw(grid,
+       {"#########",  //
+        "#...#...#",  //
+        "#...#...#",  //
+        "#...#...#",  //
+        "#########"},
+       low);
   const CellBitmap free = cells_in_state(grid.snapshot(), CellState::kFree);
   EXPECT_EQ(free.count(), 18U);
   const std::vector<CellIndex> left_room = {{-3, -2}};

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "grid/free_space.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <random>
 #include <set>
+
+#include <gtest/gtest.h>
 
 #include "grid/ray_walk.h"
 
@@ -30,7 +30,9 @@ std::vector<RayEnd> full_turn(int n, Range&& range) {
   return ends;
 }
 
-double square_room(double bearing) { return 2.02 / std::max(std::abs(std::cos(bearing)), std::abs(std::sin(bearing))); }
+double square_room(double bearing) {
+  return 2.02 / std::max(std::abs(std::cos(bearing)), std::abs(std::sin(bearing)));
+}
 
 std::set<CellIndex> cells_of(const CellBitmap& bits) {
   std::set<CellIndex> cells;
@@ -65,7 +67,8 @@ TEST(FreeSpace, TouchesNoCellTwiceAndNoHitOrItsRing) {
   FreeSpace free_space;
   for (int trial = 0; trial < 40; ++trial) {
     const auto ends = full_turn(300, [&](double) { return any(random); });
-    const ScanFootprint& f = free_space.trace({any(random), -any(random), any(random)}, ends, radians(3), kCell);
+    const ScanFootprint& f =
+        free_space.trace({any(random), -any(random), any(random)}, ends, radians(3), kCell);
     std::set<CellIndex> hits(f.hits.begin(), f.hits.end());
     EXPECT_EQ(hits.size(), f.hits.size());
     for (const CellIndex h : hits) {
@@ -76,8 +79,8 @@ TEST(FreeSpace, TouchesNoCellTwiceAndNoHitOrItsRing) {
   }
 }
 
-/// The same rules, cell by cell: a cell is passed when its centre lies nearer than the chord of its wedge, or, where
-/// the surface breaks off, nearer than the near end's.
+/// The same rules, cell by cell: a cell is passed when its centre lies nearer than the chord of its wedge,
+/// or, where the surface breaks off, nearer than the near end's.
 std::set<CellIndex> brute_force(const Pose2& pose, const std::vector<RayEnd>& ends, double max_wedge) {
   std::set<CellIndex> passed;
   const int reach = static_cast<int>(5 / kCell);
@@ -90,7 +93,8 @@ std::set<CellIndex> brute_force(const Pose2& pose, const std::vector<RayEnd>& en
       for (std::size_t i = 0; i < ends.size(); ++i) {
         const RayEnd& a = ends[i];
         const RayEnd& b = ends[(i + 1) % ends.size()];
-        const double wedge = wrap_angle(b.bearing_rad - a.bearing_rad), in = wrap_angle(bearing - a.bearing_rad);
+        const double wedge = wrap_angle(b.bearing_rad - a.bearing_rad),
+                     in = wrap_angle(bearing - a.bearing_rad);
         if (wedge <= 0 || wedge > max_wedge || in < 0 || in >= wedge) continue;
         Vector2 pa(a.x_m, a.y_m), pb(b.x_m, b.y_m);
         const double step = std::abs(a.range_m - b.range_m), arc = std::min(a.range_m, b.range_m) * wedge;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "grid/ray_walk.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <random>
 #include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 namespace dynslam {
 namespace {
@@ -26,10 +26,13 @@ TEST(RayWalk, GoesStraightAndOblique) {
 }
 
 TEST(RayWalk, CrossesTheOriginIntoNegativeCells) {
-  EXPECT_THAT(cells_between({0.5, 0.5}, {-1.5, 0.5}), ElementsAre(CellIndex{0, 0}, CellIndex{-1, 0}, CellIndex{-2, 0}));
+  EXPECT_THAT(cells_between({0.5, 0.5}, {-1.5, 0.5}),
+              ElementsAre(CellIndex{0, 0}, CellIndex{-1, 0}, CellIndex{-2, 0}));
 }
 
-TEST(RayWalk, StaysInOneCell) { EXPECT_THAT(cells_between({0.2, 0.2}, {0.8, 0.9}), ElementsAre(CellIndex{0, 0})); }
+TEST(RayWalk, StaysInOneCell) {
+  EXPECT_THAT(cells_between({0.2, 0.2}, {0.8, 0.9}), ElementsAre(CellIndex{0, 0}));
+}
 
 TEST(RayWalk, IsConnectedAndEndsWhereItShould) {
   std::mt19937 random(7);

@@ -53,12 +53,8 @@ std::string gzip(const std::string& text) {
   return packed;
 }
 
-double first_angle(const Contents& contents) {
-  return contents.scans.at(0).beams.at(0).angle_rad;
-}
-double last_angle(const Contents& contents) {
-  return contents.scans.at(0).beams.back().angle_rad;
-}
+double first_angle(const Contents& contents) { return contents.scans.at(0).beams.at(0).angle_rad; }
+double last_angle(const Contents& contents) { return contents.scans.at(0).beams.back().angle_rad; }
 
 TEST(CarmenLogTest, FlaserGivesRawOdometryAndThenTheScan) {
   const Contents log = read_all(flaser("1.0 2.0 3.0"));

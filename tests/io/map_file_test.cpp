@@ -8,9 +8,7 @@
 namespace dynslam {
 namespace {
 
-std::string pixels(const std::vector<int>& values) {
-  return {values.begin(), values.end()};
-}
+std::string pixels(const std::vector<int>& values) { return {values.begin(), values.end()}; }
 
 TEST(ToPgm, PutsTheHighestYOnTop) {
   const TrinaryMap map = drawn_map({"#. ",  //

@@ -9,13 +9,9 @@
 namespace dynslam {
 namespace {
 
-Time at_ns(std::int64_t count) {
-  return Time(Duration(count));
-}
+Time at_ns(std::int64_t count) { return Time(Duration(count)); }
 
-TEST(ToTum, IsEmptyForNoPoses) {
-  EXPECT_EQ(to_tum({}), "");
-}
+TEST(ToTum, IsEmptyForNoPoses) { EXPECT_EQ(to_tum({}), ""); }
 
 TEST(ToTum, WritesALineAPose) {
   EXPECT_EQ(to_tum({{at_ns(1'500'000'000), {1.25, -2.0, 0.0}}, {at_ns(2'000'000'000), {0.0, 0.5, kPi}}}),

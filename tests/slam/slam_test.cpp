@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+#include "slam/slam.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "slam/drawn_world.h"
+#include "support_matchers.h"
+
+namespace dynslam {
+namespace {
+
+/// A robot that drives a loop through both rooms, with whatever sensors a test gives it.
+class Drive {
+ public:
+  explicit Drive(const SlamConfig& config = {}) : slam(config) {}
+
+  /// Out of the left room, round the right one and back, in about a minute; starts standing at (2, 2.45).
+  static Pose2 world_T_robot(Time t) {
+    const double s = std::max(0.0, seconds_of(t) - 1.0);
+    const double phase = 0.1 * s;  // 63 s a round
+    return {4.2 - 2.2 * std::cos(phase), 2.45 + 0.5 * std::sin(2 * phase) * std::sin(phase),
+            0.8 * std::sin(1.3 * phase)};
+  }
+
+  static Pose2 start() { return world_T_robot(time_at_s(0)); }
+
+  void scan(double t_s, const LidarMount& mount = {}) {
+    slam.add(look(world, time_at_s(t_s), world_T_robot, lidar, random, mount));
+  }
+  void imu_until(double t_s) {
+    for (; imu_s_ <= t_s; imu_s_ += 0.01) {
+      const double yaw = world_T_robot(time_at_s(imu_s_)).yaw + 1.0 + imu_drift_radps * imu_s_;
+      slam.add(
+          ImuSample{time_at_s(imu_s_), Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()))});
+    }
+  }
+  void odometry(double t_s, const Pose2& odom_T_start = {5, 5, 1}) {
+    slam.add(
+        OdometrySample{time_at_s(t_s), odom_T_start * start().inverse() * world_T_robot(time_at_s(t_s))});
+  }
+
+  /// How far a result is off the truth: the map's frame is the robot's at the first scan.
+  static Pose2 error(const ScanResult& r, const Pose2& first) {
+    return (first.inverse() * world_T_robot(r.stamp)).inverse() * r.map_T_robot;
+  }
+  /// Works off what is ready; the worst distance off the truth so far.
+  double worst(bool at_end = false) {
+    while (auto r = slam.next(at_end)) {
+      results.push_back(*r);
+      if (results.size() == 1) first_ = world_T_robot(r->stamp) * r->map_T_robot.inverse();
+      const Pose2 off = error(*r, first_);
+      worst_m = std::max(worst_m, off.translation().norm());
+      worst_rad = std::max(worst_rad, std::abs(off.yaw));
+    }
+    return worst_m;
+  }
+
+  DrawnWorld world = two_rooms();
+  LidarModel lidar{.beams = 400, .turn_s = 0.08, .noise_m = 0.01};
+  std::mt19937 random{5};
+  double imu_drift_radps = 0.0;
+  Slam slam;
+  std::vector<ScanResult> results;
+  double worst_m = 0.0, worst_rad = 0.0;
+
+ private:
+  double imu_s_ = 0.0;
+  Pose2 first_;
+};
+
+TEST(Slam, FollowsARobotByLidarAlone) {
+  Drive drive;
+  for (int i = 0; i < 300; ++i) {
+    drive.scan(0.1 * i);
+    drive.worst();
+  }
+  drive.worst(true);
+  EXPECT_EQ(drive.results.size(), 300U);
+  EXPECT_LT(drive.worst_m, 0.03);
+  EXPECT_LT(drive.worst_rad, 0.02);
+  EXPECT_GT(drive.slam.local_maps_begun(), 3U);
+  EXPECT_LE(drive.slam.local_maps_active(), 2U);
+}
+
+TEST(Slam, FollowsARobotWithAnImuThatDrifts) {
+  Drive drive;
+  drive.imu_drift_radps = 0.01;
+  for (int i = 0; i < 300; ++i) {
+    drive.imu_until(0.1 * i + 0.05);
+    drive.scan(0.1 * i);
+    drive.worst();
+  }
+  drive.worst(true);
+  EXPECT_LT(drive.worst_m, 0.03);
+  EXPECT_LT(drive.worst_rad, 0.02) << "the map has the last word on yaw, not 0.3 rad of drift";
+}
+
+TEST(Slam, TakesSparseScansWithWheelOdometry) {
+  SlamConfig config;
+  Drive drive(config);
+  drive.lidar.turn_s = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    for (int k = 0; k < 10; ++k) drive.odometry(1.0 * i + 0.1 * k);
+    drive.scan(1.0 * i);
+    drive.worst();
+  }
+  drive.worst(true);
+  EXPECT_LT(drive.worst_m, 0.05);
+}
+
+TEST(Slam, SetsWheelsAsideThatFreezeAndThenLeap) {
+  Drive drive;
+  drive.lidar.turn_s = 0.0;
+  const Pose2 odom_T_start{5, 5, 1};
+  const auto way = [](double t_s) { return Drive::start().inverse() * Drive::world_T_robot(time_at_s(t_s)); };
+  for (int i = 0; i < 200; ++i) {
+    const double t = 0.1 * i;
+    Pose2 odom_T_robot = odom_T_start * way(t);
+    if (i >= 100 && i <= 110) odom_T_robot = odom_T_start * way(10.0);  // frozen; then 85 degrees at once
+    if (i > 110) odom_T_robot = odom_T_start * way(11.0) * Pose2{0, 0, 1.5} * way(11.0).inverse() * way(t);
+    drive.slam.add(OdometrySample{time_at_s(t), odom_T_robot});
+    drive.scan(t);
+    drive.worst();
+  }
+  drive.worst(true);
+  EXPECT_LT(drive.worst_m, 0.05);
+  EXPECT_GT(drive.slam.counters()["slam.priors_set_aside"], 0U);
+}
+
+TEST(Slam, SurvivesASecondWithoutScans) {
+  Drive drive;
+  for (int i = 0; i < 150; ++i) {
+    drive.imu_until(0.1 * i + 0.05);
+    if (i < 80 || i > 90) drive.scan(0.1 * i);
+    drive.worst();
+  }
+  drive.worst(true);
+  EXPECT_LT(drive.worst_m, 0.04);
+}
+
+TEST(Slam, PutsLidarsThatSitAnyhowWhereTheyBelong) {
+  for (const LidarMount& mount :
+       {LidarMount{{0.12, -0.03, 1.1}, false}, LidarMount{{-0.05, 0.02, -2.9}, true}}) {
+    Drive drive;
+    for (int i = 0; i < 120; ++i) {
+      drive.scan(0.1 * i, mount);
+      drive.worst();
+    }
+    drive.worst(true);
+    EXPECT_LT(drive.worst_m, 0.03);
+  }
+}
+
+TEST(Slam, DrawsAMapThatAgreesWithTheWorld) {
+  Drive drive;
+  for (int i = 0; i < 100; ++i) drive.scan(0.1 * i);
+  drive.worst(true);
+  const Pose2 map_T_world = Drive::start().inverse();
+  const GridSnapshot map = drive.slam.global_map().snapshot();
+  const auto state_at = [&](double x, double y) {
+    return map.state(cell_at(map_T_world * Vector2(x, y), map.cell_size_m()));
+  };
+  EXPECT_EQ(state_at(2.5, 2.5), CellState::kFree);
+  EXPECT_EQ(state_at(3.8, 2.0), CellState::kFree);
+  EXPECT_EQ(state_at(4.5, 1.0), CellState::kOccupied) << "the wall between the rooms";
+  EXPECT_EQ(state_at(1.45, 4.0), CellState::kUnknown) << "the inside of the cupboard";
+  EXPECT_EQ(state_at(-0.5, 2.0), CellState::kUnknown) << "behind the outer wall";
+}
+
+TEST(Slam, GivesTheSameResultsForTheSameSamples) {
+  const auto run = [] {
+    Drive drive;
+    for (int i = 0; i < 80; ++i) drive.scan(0.1 * i);
+    drive.worst(true);
+    return drive.results;
+  };
+  const auto a = run(), b = run();
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].map_T_robot, b[i].map_T_robot);
+}
+
+TEST(Slam, BeginsNoLocalMapWhileTheRobotStands) {
+  Drive drive;
+  const Scan scan = look(
+      drive.world, {},
+      [](Time) {
+        return Pose2{2, 2, 0};
+      },
+      drive.lidar, drive.random);
+  for (int i = 0; i < 200; ++i) {
+    Scan again = scan;
+    again.stamp = time_at_s(0.1 * i);
+    drive.slam.add(again);
+  }
+  int inserted = 0;
+  while (auto r = drive.slam.next(true)) inserted += r->inserted ? 1 : 0;
+  EXPECT_EQ(inserted, 200);
+  EXPECT_EQ(drive.slam.local_maps_begun(), 1U);
+}
+
+TEST(Slam, WaitsForTheImuButNotForEver) {
+  Drive drive;
+  drive.imu_until(0.5);
+  drive.scan(0.48);  // lasts until 0.56
+  EXPECT_FALSE(drive.slam.next());
+  EXPECT_EQ(drive.slam.waiting(), 1U);
+  drive.imu_until(0.57);
+  EXPECT_TRUE(drive.slam.next());
+  drive.scan(0.58);  // and now the IMU falls silent
+  drive.scan(0.68);
+  EXPECT_FALSE(drive.slam.next());
+  drive.scan(0.88);
+  EXPECT_TRUE(drive.slam.next());
+  EXPECT_FALSE(drive.slam.next());
+  EXPECT_TRUE(drive.slam.next(true));
+}
+
+TEST(Slam, PassesOverScansOutOfOrderAndFollowsAClockSetBack) {
+  Drive drive;
+  drive.scan(10.0);
+  drive.scan(10.0);
+  drive.scan(9.95);
+  drive.scan(10.1);
+  drive.scan(2.0);
+  drive.scan(2.1);
+  drive.worst(true);
+  EXPECT_EQ(drive.results.size(), 4U);
+  EXPECT_EQ(drive.slam.counters()["slam.scans_out_of_order"], 2U);
+  EXPECT_EQ(drive.slam.counters()["slam.clock_jumps"], 1U);
+}
+
+TEST(Slam, LivesThroughEmptyBlindAndHugeScans) {
+  Drive drive;
+  Scan empty, blind, huge;
+  empty.stamp = time_at_s(0.1);
+  blind.stamp = time_at_s(0.2);
+  huge.stamp = time_at_s(0.3);
+  for (int i = 0; i < 100; ++i)
+    blind.beams.push_back({0.01F * static_cast<float>(i), i % 2 ? INFINITY : NAN, 0});
+  for (int i = 0; i < 1000000; ++i) huge.beams.push_back({static_cast<float>(i * kTwoPi / 1e6), 3.0F, 0});
+  for (const Scan& s : {empty, blind, huge}) drive.slam.add(s);
+  drive.scan(0.4);
+  drive.worst(true);
+  ASSERT_EQ(drive.results.size(), 4U);
+  EXPECT_FALSE(drive.results[0].inserted);
+  EXPECT_FALSE(drive.results[1].inserted);
+  EXPECT_TRUE(drive.results[2].inserted);
+}
+
+TEST(Slam, SaysThatAScanDoesNotMatchAndStartsAnewWhenNoneDoes) {
+  Drive drive;
+  for (int i = 0; i < 30; ++i) drive.scan(0.1 * i);
+  drive.worst(true);
+  DrawnWorld elsewhere;
+  elsewhere.add_box(-0.4, -0.5, 0.45, 0.4);
+  for (int i = 30; i < 80; ++i) {
+    drive.slam.add(look(
+        elsewhere, time_at_s(0.1 * i), [](Time) { return Pose2{}; }, drive.lidar, drive.random));
+  }
+  int unmatched = 0, matched_after = 0;
+  while (auto r = drive.slam.next(true)) {
+    unmatched += r->matched ? 0 : 1;
+    matched_after += unmatched > 0 && r->matched ? 1 : 0;
+  }
+  EXPECT_GE(unmatched, 20);
+  EXPECT_GT(matched_after, 20);
+  EXPECT_EQ(drive.slam.counters()["slam.times_lost"], 1U);
+}
+
+TEST(Slam, SkipsScansTakenInAFastTurn) {
+  SlamConfig config;
+  config.skip_yaw_rate_radps = 2.0;
+  Slam slam(config);
+  std::mt19937 random(1);
+  const auto turning = [](Time t) { return Pose2{2, 2, 3.0 * seconds_of(t)}; };
+  for (int i = 0; i < 100; ++i) {
+    const double yaw = 0.03 * i;
+    slam.add(
+        ImuSample{time_at_s(0.01 * i), Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()))});
+  }
+  for (int i = 1; i < 8; ++i)
+    slam.add(look(two_rooms(), time_at_s(0.1 * i), turning, {.beams = 400}, random));
+  int inserted = 0, seen = 0;
+  while (auto r = slam.next(true)) inserted += r->inserted ? 1 : 0, ++seen;
+  EXPECT_EQ(seen, 7);
+  EXPECT_EQ(inserted, 0);
+  EXPECT_EQ(slam.counters()["slam.scans_skipped_turning"], 7U);
+}
+
+TEST(Slam, StaysWithinItsChunks) {
+  SlamConfig config;
+  config.max_chunks = 64;
+  config.cell_size_m = 0.005;
+  Drive drive(config);
+  for (int i = 0; i < 10; ++i) drive.scan(0.1 * i);
+  drive.worst(true);
+  EXPECT_EQ(drive.slam.global_map().chunk_count(), 64U);
+  EXPECT_GT(drive.slam.counters()["map.cells_refused"], 0U);
+}
+
+TEST(Slam, RefusesRaysOfTooManyCells) {
+  SlamConfig config;
+  config.cell_size_m = 0.005;
+  config.trusted_range_m = 50;
+  EXPECT_THROW(Slam{config}, InputError);
+}
+
+/// Notes what the stages are called.
+struct Names : StageWatch {
+  std::vector<std::string> names;
+  void enter(std::string_view stage) override { names.emplace_back(stage); }
+};
+
+TEST(Slam, TellsItsStages) {
+  Names names;
+  Slam slam({}, &names);
+  std::mt19937 random(1);
+  slam.add(look(
+      two_rooms(), {},
+      [](Time) {
+        return Pose2{2, 2, 0};
+      },
+      {}, random));
+  ASSERT_TRUE(slam.next(true));
+  EXPECT_EQ(names.names, (std::vector<std::string>{"passes", "match", "insert", ""}));
+}
+
+}  // namespace
+}  // namespace dynslam
