@@ -51,6 +51,11 @@ run_tests() {
   sed -n '/tests passed,/,$p' "$logs/$preset.ctest"
 }
 
+# For comparing what machines and compilers make of the recording.
+fingerprint() {
+  echo "fingerprint: trajectories $(cat "$1"/trajectory*.tum | sha256sum | cut -c-8), map $(sha256sum "$1/map.pgm" | cut -c-8)"
+}
+
 step_host() {
   need ccache
   toolchain/host.sh test
@@ -68,6 +73,7 @@ step_replay() {
     [[ $name == report.json ]] || cmp "out/$name" "$out/$name"
   done
   echo "all ${#files[@]} files are there; a second run gave the same trajectories and map"
+  fingerprint out
 }
 
 step_asan() {
@@ -166,10 +172,19 @@ fresh_debian() {
     echo "host.sh $job took $((SECONDS - began)) s"
   done
   [[ -s $root/root/dynslam/out/map.png ]]
+  fingerprint "$root/root/dynslam/out"
 }
 step_debian12() { fresh_debian bookworm; }
 step_debian13() { fresh_debian trixie; }
 
-step_arm64() { toolchain/pi.sh test; }
+step_arm64() {
+  quietly toolchain/pi.sh test
+  echo "$(grep -c ' Passed ' build/arm64/Testing/Temporary/LastTest.log) passed"
+  out=$(mktemp -d)
+  trap 'rm -rf "$out"' EXIT
+  qemu-aarch64-static -L build/sysroot-arm64 build/arm64/src/dynslam replay "$recording" \
+    --set slam.trusted_range_m=30 --out "$out" --quiet
+  fingerprint "$out"
+}
 
 # A step `browser`, with the page in a real browser, belongs here once there is a page.
