@@ -22,8 +22,9 @@ struct LidarConfig {
   double y_m = 0.0;
   double yaw_rad = 0.0;
   bool upside_down = false;
+  double height_m = 0.18;
 
-  LidarMount mount() const { return {{x_m, y_m, wrap_angle(yaw_rad)}, upside_down}; }
+  LidarMount mount() const { return {{x_m, y_m, wrap_angle(yaw_rad)}, upside_down, height_m}; }
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -31,6 +32,7 @@ struct LidarConfig {
     visit(Field{"y_m", "how far the lidar is to the left of the middle of the axle", -5.0, 5.0}, self.y_m);
     visit(Field{"yaw_rad", "how far the lidar's forward is turned to the left", -6.3, 6.3}, self.yaw_rad);
     visit(Field{"upside_down", "whether the lidar hangs head down"}, self.upside_down);
+    visit(Field{"height_m", "how high above the floor the lidar looks", 0.02, 3.0}, self.height_m);
   }
 };
 

@@ -24,6 +24,7 @@ inline bool is_return(const Beam& b) { return std::isfinite(b.range_m); }
 struct LidarMount {
   Pose2 robot_T_lidar;
   bool upside_down = false;  ///< rolled by pi about its x axis: its angles run clockwise seen from above
+  double height_m = 0.18;    ///< of its plane above the floor
 };
 
 /// One turn of the lidar, beams in the order they were measured.

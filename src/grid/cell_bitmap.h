@@ -38,6 +38,9 @@ class CellBitmap {
   }
   std::size_t count() const;
 
+  /// This set grown by its neighbours up, down, left and right, `times` over; within the rectangle.
+  CellBitmap grown(int times) const;
+
  private:
   std::uint64_t& word(CellIndex c) { return row(c.y - first().y)[(c.x >> kChunkBits) - box_.min.x]; }
   std::uint64_t word(CellIndex c) const { return row(c.y - first().y)[(c.x >> kChunkBits) - box_.min.x]; }

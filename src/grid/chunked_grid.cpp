@@ -111,6 +111,19 @@ void ChunkedGrid::add_miss(CellIndex c) {
   miss = raised(miss, rule_.gain);
 }
 
+void ChunkedGrid::set(CellIndex c, CellState state) {
+  const std::uint8_t new_hit = state == CellState::kOccupied ? 255 : 0;
+  const std::uint8_t new_miss = state == CellState::kFree ? 255 : 0;
+  if (hit(c) == new_hit && miss(c) == new_miss) return;
+  Chunk* chunk = writable(chunk_of(c));
+  if (!chunk) {
+    ++cells_refused_;
+    return;
+  }
+  chunk->hit[c.y & kChunkMask][c.x & kChunkMask] = new_hit;
+  chunk->miss[c.y & kChunkMask][c.x & kChunkMask] = new_miss;
+}
+
 void ChunkedGrid::apply(const ScanFootprint& footprint) {
   const ChunkBox& box = footprint.misses.box();
   for (std::int32_t y = box.min.y; y <= box.max.y; ++y) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "base/pose2.h"
 #include "base/time.h"
 #include "grid/chunked_grid.h"
@@ -17,13 +19,17 @@ inline constexpr CellRule kLocalMapRule{.gain = 10, .loss = 3};
 /// pose then and there.
 struct LocalMap {
   LocalMap(double cell_size_m, std::size_t max_chunks, const Pose2& origin, Time begin)
-      : grid(cell_size_m, max_chunks, kLocalMapRule), map_T_origin(origin), begun(begin) {}
+      : grid(cell_size_m, max_chunks, kLocalMapRule),
+        map_T_origin(origin),
+        begun(begin),
+        robot_positions{origin.translation()} {}
 
   ChunkedGrid grid;
   Pose2 map_T_origin;
   Time begun;
   int scans = 0;          ///< that count: taken in motion
   double travel_m = 0.0;  ///< since it was begun
+  std::vector<Vector2> robot_positions;  ///< where scans that count were taken, in the frame it is drawn in
 };
 
 }  // namespace dynslam

@@ -83,6 +83,10 @@ MotionInScan MotionModel::motion_around(Time reference) const {
   };
 }
 
+TiltInScan MotionModel::tilt_around() const {
+  return [this](Time t) { return imu_.tilt_at(t).value_or(Eigen::Quaterniond::Identity()); };
+}
+
 double MotionModel::yaw_rate(Time t) const {
   const Duration half = std::chrono::milliseconds(40);
   if (const auto turned = imu_turn(t - half, t + half)) return *turned / to_seconds(2 * half);

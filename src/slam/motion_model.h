@@ -31,6 +31,9 @@ class MotionModel {
   /// The motion around a scan's reference time, for the egomotion pass.
   MotionInScan motion_around(Time reference) const;
 
+  /// Roll and pitch around a scan: level where the IMU is silent. Valid as long as this.
+  TiltInScan tilt_around() const;
+
   /// The scan of time `t` was taken here: the velocity follows.
   void fix(Time t, const Pose2& map_T_robot);
   bool has_fix() const { return has_fix_; }

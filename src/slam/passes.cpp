@@ -19,6 +19,28 @@ std::vector<Ray> clamp_pass(const Scan& scan, const SlamConfig& config) {
   return rays;
 }
 
+void level_pass(const Scan& scan, const TiltInScan& tilt, const HeightBand& band, std::vector<Ray>& rays) {
+  constexpr std::size_t kStride = 16;  // a tilt serves a few beams: a robot takes longer to tip than they take
+  constexpr double kLevel_rad = 0.003;
+  const auto mount = static_cast<float>(scan.mount.robot_T_lidar.yaw);
+  const auto down = static_cast<float>(std::max(0.0, scan.mount.height_m - band.low_m));
+  const auto up = static_cast<float>(std::max(0.0, band.high_m - scan.mount.height_m));
+  for (std::size_t begin = 0; begin < rays.size(); begin += kStride) {
+    const Eigen::Quaterniond level_q_robot = tilt(scan.stamp + from_seconds(rays[begin].time_s));
+    if (level_q_robot.vec().norm() < 0.5 * kLevel_rad) continue;
+    const Eigen::Matrix3f turned = level_q_robot.toRotationMatrix().cast<float>();
+    for (std::size_t i = begin; i < std::min(begin + kStride, rays.size()); ++i) {
+      Ray& ray = rays[i];
+      const float bearing = mount + ray.angle_rad;
+      const Eigen::Vector3f way = turned * Eigen::Vector3f(std::cos(bearing), std::sin(bearing), 0);
+      const float leaves_m = (way.z() < 0 ? down : up) / std::max(std::abs(way.z()), 1e-6F);
+      ray.hit = ray.hit && ray.range_m <= leaves_m;
+      ray.range_m = std::min(ray.range_m, leaves_m) * std::hypot(way.x(), way.y());
+      ray.angle_rad = std::atan2(way.y(), way.x()) - mount;
+    }
+  }
+}
+
 Time reference_time(const Scan& scan) {
   if (scan.beams.empty()) return scan.stamp;
   return scan.stamp + from_seconds(0.5 * (scan.beams.front().time_s + scan.beams.back().time_s));

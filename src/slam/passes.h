@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Geometry>
 #include <functional>
 #include <vector>
 
@@ -33,10 +34,24 @@ struct CorrectedScan {
 /// Where the robot was at a time, as seen from where it was at the reference time: reference_T_robot(t).
 using MotionInScan = std::function<Pose2(Time)>;
 
+/// Roll and pitch at a time: turns the robot's axes into level ones of the same heading.
+using TiltInScan = std::function<Eigen::Quaterniond(Time)>;
+
+/// What a lidar on a robot of this height should see: neither floor nor what the robot passes under, metres above the floor.
+struct HeightBand {
+  double low_m = 0.05;
+  double high_m = 0.60;
+};
+
 /// Keeps what is believed: no rays shorter than `min_range_m`, none without a valid measurement. Rays over
 /// `trusted_range_m` are cut to it and lose their end point. A ray from which nothing came back says nothing:
 /// a black cupboard does the same.
 std::vector<Ray> clamp_pass(const Scan& scan, const SlamConfig& config);
+
+/// Lays the rays of a robot that rolls and pitches down on the level plane, each with the tilt of its own
+/// time. A ray that leaves the height band is cut to where it leaves it and loses its end point: what it met
+/// is the floor, or above the robot (thesis 6.4).
+void level_pass(const Scan& scan, const TiltInScan& tilt, const HeightBand& band, std::vector<Ray>& rays);
 
 /// The time a scan's corrected rays refer to: halfway between its first and last beam.
 Time reference_time(const Scan& scan);

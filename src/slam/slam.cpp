@@ -150,7 +150,8 @@ bool Slam::may_insert(const Scan& scan, const Fix& fix) {
 }
 
 CorrectedScan Slam::correct(const Scan& scan) {
-  const std::vector<Ray> rays = clamp_pass(scan, config_);
+  std::vector<Ray> rays = clamp_pass(scan, config_);
+  if (!motion_.imu().empty()) level_pass(scan, motion_.tilt_around(), {}, rays);
   CorrectedScan corrected = egomotion_pass(scan, rays, motion_.motion_around(reference_time(scan)));
   stray_ray_pass(corrected);
   return corrected;
@@ -208,6 +209,7 @@ void Slam::count_scan(const Pose2& map_T_robot, Time t) {
   for (LocalMap& m : local_maps_) {
     m.scans += 1;
     m.travel_m += m.scans > 1 ? distance : 0.0;
+    m.robot_positions.push_back(map_T_robot.translation());
   }
   const LocalMap& older = local_maps_.front();
   if (older.scans >= config_.scans_per_local_map || older.travel_m >= config_.travel_per_local_map_m) {
