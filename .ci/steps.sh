@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: MIT
 # The steps of .ci/full. Each runs in its own shell at the top of the tree with `set -e`, and installs what it needs.
 
+# shellcheck source=toolchain/quiet.sh
+source toolchain/quiet.sh
+
 logs=$PWD/build/ci
 skipped=77
 recording=tests/data/mit-csail.clf.gz
@@ -24,31 +27,10 @@ skip() {
   exit $skipped
 }
 
-# Runs a command and shows what it printed only if it failed.
-quietly() {
-  local log
-  log=$(mktemp)
-  if "$@" >"$log" 2>&1; then
-    rm "$log"
-  else
-    grep -v '^\[[0-9]*/[0-9]*\] ' "$log" || true
-    rm "$log"
-    return 1
-  fi
-}
-
 build() {
   echo "building with preset $1"
   quietly cmake --preset "$1"
   quietly cmake --build --preset "$1"
-}
-
-# Tests what a preset built; words after its name start each ctest, as `setarch -R` does.
-run_tests() {
-  local preset=$1
-  shift
-  quietly "$@" ctest --preset "$preset" --no-tests=error --timeout 600 --output-log "$logs/$preset.ctest"
-  sed -n '/tests passed,/,$p' "$logs/$preset.ctest"
 }
 
 # For comparing what machines and compilers make of the recording.
@@ -79,7 +61,7 @@ step_replay() {
 step_asan() {
   need_to_build
   build asan
-  run_tests asan
+  run_tests build/asan
   out=$(mktemp -d)
   trap 'rm -rf "$out"' EXIT
   build/asan/src/dynslam replay "$recording" --set slam.trusted_range_m=30 --out "$out" --quiet
@@ -106,14 +88,14 @@ step_tsan() {
   need_to_build
   build tsan
   # Its shadow memory leaves no room for addresses as random as some kernels make them.
-  run_tests tsan setarch --addr-no-randomize
+  run_tests build/tsan setarch --addr-no-randomize
 }
 
 step_coverage() {
   need_to_build gcovr
   build coverage
   find build/coverage -name '*.gcda' -delete
-  run_tests coverage
+  run_tests build/coverage
   local lines=build/coverage/lines.json folder failed=0
   quietly gcovr --root . --object-directory build/coverage --filter src/ --json "$lines"
   for folder in base grid io slam; do
@@ -127,7 +109,7 @@ step_coverage() {
 step_clang() {
   need_to_build clang
   build clang
-  run_tests clang
+  run_tests build/clang
 }
 
 step_tidy() {
@@ -178,8 +160,8 @@ step_debian12() { fresh_debian bookworm; }
 step_debian13() { fresh_debian trixie; }
 
 step_arm64() {
-  quietly toolchain/pi.sh test
-  echo "$(grep -c ' Passed ' build/arm64/Testing/Temporary/LastTest.log) passed"
+  need_to_build
+  toolchain/pi.sh test
   out=$(mktemp -d)
   trap 'rm -rf "$out"' EXIT
   qemu-aarch64-static -L build/sysroot-arm64 build/arm64/src/dynslam replay "$recording" \
