@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: MIT
 # The steps of .ci/full. Each runs in its own shell at the top of the tree with `set -e`, and installs what it needs.
 
+# shellcheck source=toolchain/quiet.sh
+source toolchain/quiet.sh
+
 logs=$PWD/build/ci
 skipped=77
 recording=tests/data/mit-csail.clf.gz
@@ -24,31 +27,15 @@ skip() {
   exit $skipped
 }
 
-# Runs a command and shows what it printed only if it failed.
-quietly() {
-  local log
-  log=$(mktemp)
-  if "$@" >"$log" 2>&1; then
-    rm "$log"
-  else
-    grep -v '^\[[0-9]*/[0-9]*\] ' "$log" || true
-    rm "$log"
-    return 1
-  fi
-}
-
 build() {
   echo "building with preset $1"
   quietly cmake --preset "$1"
   quietly cmake --build --preset "$1"
 }
 
-# Tests what a preset built; words after its name start each ctest, as `setarch -R` does.
-run_tests() {
-  local preset=$1
-  shift
-  quietly "$@" ctest --preset "$preset" --no-tests=error --timeout 600 --output-log "$logs/$preset.ctest"
-  sed -n '/tests passed,/,$p' "$logs/$preset.ctest"
+# For comparing what machines and compilers make of the recording.
+fingerprint() {
+  echo "fingerprint: trajectories $(cat "$1"/trajectory*.tum | sha256sum | cut -c-8), map $(sha256sum "$1/map.pgm" | cut -c-8)"
 }
 
 step_host() {
@@ -68,12 +55,13 @@ step_replay() {
     [[ $name == report.json ]] || cmp "out/$name" "$out/$name"
   done
   echo "all ${#files[@]} files are there; a second run gave the same trajectories and map"
+  fingerprint out
 }
 
 step_asan() {
   need_to_build
   build asan
-  run_tests asan
+  run_tests build/asan
   out=$(mktemp -d)
   trap 'rm -rf "$out"' EXIT
   build/asan/src/dynslam replay "$recording" --set slam.trusted_range_m=30 --out "$out" --quiet
@@ -82,7 +70,13 @@ step_asan() {
 step_format() {
   # Another release of clang-format would lay out some lines in another way.
   need clang-format-14 || skip "clang-format 14 is to be had on Debian 12"
-  git ls-files -z '*.h' '*.cpp' | xargs -0 clang-format-14 --dry-run -Werror
+  local file failed=0
+  while read -r file; do
+    clang-format-14 --dry-run -Werror "$file" >"$logs/clang-format" 2>&1 && continue
+    echo "$file: $(grep -c 'error:' "$logs/clang-format") places; clang-format-14 -i mends them"
+    failed=1
+  done < <(git ls-files '*.h' '*.cpp')
+  return $failed
 }
 
 step_scripts() {
@@ -94,14 +88,14 @@ step_tsan() {
   need_to_build
   build tsan
   # Its shadow memory leaves no room for addresses as random as some kernels make them.
-  run_tests tsan setarch --addr-no-randomize
+  run_tests build/tsan setarch --addr-no-randomize
 }
 
 step_coverage() {
   need_to_build gcovr
   build coverage
   find build/coverage -name '*.gcda' -delete
-  run_tests coverage
+  run_tests build/coverage
   local lines=build/coverage/lines.json folder failed=0
   quietly gcovr --root . --object-directory build/coverage --filter src/ --json "$lines"
   for folder in base grid io slam; do
@@ -115,7 +109,7 @@ step_coverage() {
 step_clang() {
   need_to_build clang
   build clang
-  run_tests clang
+  run_tests build/clang
 }
 
 step_tidy() {
@@ -160,10 +154,19 @@ fresh_debian() {
     echo "host.sh $job took $((SECONDS - began)) s"
   done
   [[ -s $root/root/dynslam/out/map.png ]]
+  fingerprint "$root/root/dynslam/out"
 }
 step_debian12() { fresh_debian bookworm; }
 step_debian13() { fresh_debian trixie; }
 
-step_arm64() { toolchain/pi.sh test; }
+step_arm64() {
+  need_to_build
+  toolchain/pi.sh test
+  out=$(mktemp -d)
+  trap 'rm -rf "$out"' EXIT
+  qemu-aarch64-static -L build/sysroot-arm64 build/arm64/src/dynslam replay "$recording" \
+    --set slam.trusted_range_m=30 --out "$out" --quiet
+  fingerprint "$out"
+}
 
 # A step `browser`, with the page in a real browser, belongs here once there is a page.

@@ -22,19 +22,12 @@ dynslam=$build/src/dynslam
 export CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"
 export CTEST_PARALLEL_LEVEL="${CTEST_PARALLEL_LEVEL:-$CMAKE_BUILD_PARALLEL_LEVEL}"
 
-say() { echo "$*" >&2; }
-
-# Shows what a command printed only if it failed, without ninja's lines of progress.
-quietly() {
-  "$@" >"$build/host.log" 2>&1 </dev/null && return
-  grep -v '^\[[0-9]*/[0-9]*\] ' "$build/host.log" >&2
-  exit 1
-}
+# shellcheck source=toolchain/quiet.sh
+. "$root/toolchain/quiet.sh"
 
 # shellcheck disable=SC2046 # one word a package
 "$root/toolchain/install.sh" $(grep -v '^#' "$root/toolchain/packages.txt")
 
-mkdir -p "$build"
 say "configuring build/release"
 quietly cmake -S "$root" --preset release
 say "building"
@@ -43,13 +36,7 @@ quietly cmake --build "$build"
 case $job in
   test)
     say "testing"
-    log=$build/host-test.log
-    if ctest --test-dir "$build" --output-on-failure --no-tests=error --timeout 300 >"$log" 2>&1 </dev/null; then
-      sed -n '/tests passed/,$p' "$log"
-    else
-      grep -v -e ' Passed ' -e '^ *Start ' "$log"
-      exit 1
-    fi
+    run_tests "$build"
     ;;
   run)
     [ $# = 0 ] || exec "$dynslam" "$@"

@@ -16,17 +16,20 @@ build=$root/build/arm64
 sysroot=$root/build/sysroot-arm64
 packages=$(grep -e '-dev$' "$root/toolchain/packages.txt" | paste -sd,)
 export CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"
+export CTEST_PARALLEL_LEVEL="${CTEST_PARALLEL_LEVEL:-$CMAKE_BUILD_PARALLEL_LEVEL}"
+# shellcheck source=toolchain/quiet.sh
+. "$root/toolchain/quiet.sh"
 
 "$root/toolchain/install.sh" cmake ninja-build pkg-config crossbuild-essential-arm64 mmdebstrap qemu-user-static
 
 # Made anew when the list of libraries changes; complete once its list is written.
 if [ "$(cat "$sysroot/packages" 2>/dev/null)" != "$packages" ]; then
-  echo "making a sysroot" >&2
+  say "making a sysroot"
   rm -rf --one-file-system "$sysroot"
   mkdir -p "$sysroot"
   # shellcheck source=/dev/null
   suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
-  mmdebstrap --quiet --variant=extract --architectures=arm64 --hook-dir=/usr/share/mmdebstrap/hooks/merged-usr \
+  quietly mmdebstrap --variant=extract --architectures=arm64 --hook-dir=/usr/share/mmdebstrap/hooks/merged-usr \
     --include="$packages" "$suite" "$sysroot" "$("$root/toolchain/mirror.sh")"
   # Links to /lib/... would lead to this machine's own libraries.
   find "$sysroot/usr/lib/aarch64-linux-gnu" -lname '/*' | while read -r link; do
@@ -35,9 +38,11 @@ if [ "$(cat "$sysroot/packages" 2>/dev/null)" != "$packages" ]; then
   echo "$packages" >"$sysroot/packages"
 fi
 
-cmake -S "$root" -B "$build" -G Ninja --toolchain "$root/toolchain/arm64.cmake" \
+say "building for arm64"
+quietly cmake -S "$root" -B "$build" -G Ninja --toolchain "$root/toolchain/arm64.cmake" \
   -DCMAKE_BUILD_TYPE=Release -DDYNSLAM_WERROR=ON
-cmake --build "$build"
+quietly cmake --build "$build"
 if [ "$1" = test ]; then
-  ctest --test-dir "$build" -j "$CMAKE_BUILD_PARALLEL_LEVEL" --output-on-failure --no-tests=error --timeout 600
+  say "testing under emulation"
+  run_tests "$build"
 fi

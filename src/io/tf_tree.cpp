@@ -37,7 +37,7 @@ std::optional<Eigen::Isometry3d> TfTree::robot_T(std::string_view frame) const {
   frame = without_slash(frame);
   if (!links_.contains(frame) && !is_parent(frame)) return std::nullopt;
   for (const std::string_view base : {"base_link", "base_footprint", ""}) {
-    if (const auto base_T_frame = chain(base, frame)) return base_T_frame;
+    if (auto base_T_frame = chain(base, frame)) return base_T_frame;
   }
   return std::nullopt;
 }
