@@ -14,7 +14,7 @@ case $1 in build | test) ;; *) usage ;; esac
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=$root/build/arm64
 sysroot=$root/build/sysroot-arm64
-packages=$(grep -e '-dev$' "$root/toolchain/packages.txt" | paste -sd,)
+packages=$(grep -e '-dev$' "$root/toolchain/packages.txt" | paste -sd,),libblas-dev,liblapack-dev
 export CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"
 export CTEST_PARALLEL_LEVEL="${CTEST_PARALLEL_LEVEL:-$CMAKE_BUILD_PARALLEL_LEVEL}"
 # shellcheck source=toolchain/quiet.sh
@@ -35,6 +35,13 @@ if [ "$(cat "$sysroot/packages" 2>/dev/null)" != "$packages" ]; then
   find "$sysroot/usr/lib/aarch64-linux-gnu" -lname '/*' | while read -r link; do
     ln -sfn --relative "$sysroot$(readlink "$link")" "$link"
   done
+  # What installing would have linked as an alternative.
+  for library in "$sysroot"/usr/lib/aarch64-linux-gnu/blas/*.so* "$sysroot"/usr/lib/aarch64-linux-gnu/lapack/*.so*; do
+    [ ! -e "$library" ] || ln -sf --relative "$library" "$sysroot/usr/lib/aarch64-linux-gnu/"
+  done
+  # Ceres names libraries by their whole path.
+  find "$sysroot/usr/lib/aarch64-linux-gnu/cmake" -name '*Targets*.cmake' -exec \
+    sed -i "/INTERFACE_LINK_LIBRARIES/ s#\([;\"]\)/usr/lib/#\1$sysroot/usr/lib/#g" {} +
   echo "$packages" >"$sysroot/packages"
 fi
 
