@@ -32,7 +32,7 @@ struct StampedFix {
 /// samples give the same results on every machine.
 class Slam {
  public:
-  /// `watch`, when given, must outlive this. Throws InputError when a trusted ray is longer than 8000 cells.
+  /// `watch`, when given, must outlive this. Throws InputError for a config with a problem().
   explicit Slam(const SlamConfig& config, StageWatch* watch = nullptr);
 
   void add(const ImuSample& sample) { front_end_.add(sample); }

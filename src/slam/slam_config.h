@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "base/config_field.h"
 
 namespace dynslam {
@@ -17,6 +20,16 @@ struct SlamConfig {
   bool close_loops = false;
   int correction_delay_scans = 5;
   int max_chunks = 16384;
+
+  /// Cells along a trusted ray: what a scan costs grows with its square.
+  static constexpr int kMostCells = 4000;
+
+  /// What is wrong with the values together, if anything.
+  std::optional<std::string> problem() const {
+    if (trusted_range_m > kMostCells * cell_size_m) return "slam.trusted_range_m: more than 4000 cells of slam.cell_size_m";
+    if (min_range_m >= trusted_range_m) return "slam.min_range_m: not less than slam.trusted_range_m";
+    return std::nullopt;
+  }
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
