@@ -21,7 +21,8 @@ std::string read_text(const std::string& path) {
   };
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail("is a directory");
-  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored) && path != "/dev/null") {
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored) &&
+      path != "/dev/null") {
     fail("is no regular file");
   }
   errno = 0;

@@ -30,9 +30,7 @@ struct Common {
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
   }
-  dynslam::Config load() const {
-    return dynslam::make_config(config, settings);
-  }
+  dynslam::Config load() const { return dynslam::make_config(config, settings); }
 };
 
 int run(int argc, char** argv) {
@@ -77,7 +75,8 @@ int main(int argc, char** argv) {
   spdlog::set_pattern("%n: %^%v%$");
   try {
     const int code = run(argc, argv);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw std::runtime_error("cannot write to standard output");
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw std::runtime_error("cannot write to standard output");
     return code;
   } catch (const dynslam::InputError& e) {
     spdlog::error("{}", e.what());

@@ -68,7 +68,8 @@ class ChunkedGrid {
 
   void add_hit(CellIndex c);
   void add_miss(CellIndex c);
-  /// Makes a cell as sure as can be of a state; kUnknown forgets it. Costs nothing where the cell is so already.
+  /// Makes a cell as sure as can be of a state; kUnknown forgets it. Costs nothing where the cell is so
+  /// already.
   void set(CellIndex c, CellState state);
   /// All of a scan at once. Same result as add_hit and add_miss on each of its cells.
   void apply(const ScanFootprint& footprint);

@@ -58,9 +58,7 @@ bool is_within(const Pose2& pose, double reach_m) {
 }  // namespace
 
 FrontEnd::FrontEnd(const SlamConfig& config, StageWatch* watch)
-    : config_(config),
-      watch_(watch),
-      matcher_({.search_half_width_m = config.search_half_width_m}) {
+    : config_(config), watch_(watch), matcher_({.search_half_width_m = config.search_half_width_m}) {
   if (const auto problem = config.problem()) throw InputError(*problem);
 }
 
@@ -139,8 +137,8 @@ FrontEndResult FrontEnd::process(const Scan& scan) {
   return result;
 }
 
-/// Counts scans that the map does not explain; after too many, a new map begins. A scan that shows nothing says nothing
-/// against the map.
+/// Counts scans that the map does not explain; after too many, a new map begins. A scan that shows nothing
+/// says nothing against the map.
 void FrontEnd::note_match(const Fix& fix) {
   if (!fix.matched) counters_.add("slam.scans_unmatched");
   if (points_.empty()) return;
@@ -209,7 +207,8 @@ FrontEnd::Fix FrontEnd::locate(const CorrectedScan& scan) {
 }
 
 void FrontEnd::begin_local_map(const Fix& fix, Time t) {
-  local_maps_.emplace_back(config_.cell_size_m, static_cast<std::size_t>(config_.max_chunks), fix.map_T_robot, t);
+  local_maps_.emplace_back(config_.cell_size_m, static_cast<std::size_t>(config_.max_chunks), fix.map_T_robot,
+                           t);
   local_maps_.back().id = next_id_++;
   local_maps_.back().origin_covariance = fix.match.covariance;
   local_maps_.back().is_tied = local_maps_.size() > 1;
@@ -267,7 +266,8 @@ void FrontEnd::insert(const CorrectedScan& scan, const Pose2& map_T_robot) {
 
 /// The scan's pose is that of its middle; its stamp is that of its first beam, a few centimetres of way
 /// earlier.
-Pose2 FrontEnd::pose_at_stamp(const Scan& scan, const CorrectedScan& corrected, const Pose2& map_T_robot) const {
+Pose2 FrontEnd::pose_at_stamp(const Scan& scan, const CorrectedScan& corrected,
+                              const Pose2& map_T_robot) const {
   const Pose2 back = motion_.motion_around(corrected.reference)(scan.stamp);
   Pose2 at = map_T_robot * back;
   if (motion_.has_fix() && motion_.last_time() <= scan.stamp && corrected.reference > motion_.last_time()) {

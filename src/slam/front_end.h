@@ -32,8 +32,8 @@ struct FrontEndResult {
   bool inserted = false;  ///< drawn into the local maps
 };
 
-/// From sensor samples to poses and local maps (thesis, figure 4.2). Its frame is continuous: poses are never corrected
-/// afterwards, they drift. What the drift was, the back end finds.
+/// From sensor samples to poses and local maps (thesis, figure 4.2). Its frame is continuous: poses are never
+/// corrected afterwards, they drift. What the drift was, the back end finds.
 ///
 /// Samples go in as they arrive. A scan waits until the IMU has told of its whole turn, or has fallen silent;
 /// then `next` takes it through the stages. Results depend on the samples and their order alone, never on a

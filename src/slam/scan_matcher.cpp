@@ -62,11 +62,13 @@ MatchResult ScanMatcher::match(const ChunkedGrid& map, std::span<const MatchPoin
     const double half_yaw = config_.window_sigmas * prior.sigma_yaw_rad;
     choose_sparse(points_robot);
     const bool wide = half_xy > kMostFineHalf;
-    // The search ends on whole steps beyond its range and looks around its candidates; refinement may stray from there.
+    // The search ends on whole steps beyond its range and looks around its candidates; refinement may stray
+    // from there.
     const double reach = half_xy + (wide ? 3 * kCoarse : 1) + kStray;
     const double turn_reach = half_yaw + (2 * kCoarse + kStray) / far_cells_;
     const auto load = [&](std::uint8_t unknown) {
-      fine_.load(map, points_robot, expected, static_cast<float>(reach), static_cast<float>(turn_reach), gain, unknown);
+      fine_.load(map, points_robot, expected, static_cast<float>(reach), static_cast<float>(turn_reach), gain,
+                 unknown);
     };
     load(wide ? kUnknownWorth : std::uint8_t{0});
     const Pose2 first{static_cast<double>(fine_.first().x), static_cast<double>(fine_.first().y), 0};
@@ -172,7 +174,8 @@ ScanMatcher::Candidate ScanMatcher::search_all(double half_xy_cells, double half
   coarse_.pool(fine_);
   const double coarse_yaw = kCoarse * fine_yaw;
   const SearchRange wide{std::min(kMostCoarseHalf, static_cast<int>(std::ceil(half_xy_cells / kCoarse))),
-                         std::min(kMostCoarseYaws, static_cast<int>(std::ceil(half_yaw_rad / coarse_yaw))), coarse_yaw};
+                         std::min(kMostCoarseYaws, static_cast<int>(std::ceil(half_yaw_rad / coarse_yaw))),
+                         coarse_yaw};
   Candidate best{centre, -1e300};
   for (const Candidate& r :
        search(coarse_, {centre.x / kCoarse, centre.y / kCoarse, centre.yaw}, wide, kCoarse, kCandidates)) {

@@ -159,7 +159,8 @@ TEST(FreeSpace, CoversWhatWalkingEachRayCoversButTheGrazedRim) {
 }
 
 TEST(FreeSpace, SeesTheSameAcrossTheSeamOfTheCircle) {
-  // A room with a near thing whose edge lies where bearings jump from pi to -pi, and the same scene turned away from there.
+  // A room with a near thing whose edge lies where bearings jump from pi to -pi, and the same scene turned
+  // away from there.
   const auto scene = [](double turned) {
     auto ends = full_turn(720, square_room);
     for (RayEnd& e : ends) {

@@ -274,11 +274,13 @@ TEST(Slam, StartsAnewOnAMapOfOneLookAfterOneOfMany) {
   DrawnWorld elsewhere;
   elsewhere.add_box(-0.4, -0.5, 0.45, 0.4);
   for (int i = 60; i < 160; ++i) {
-    drive.slam.add(look(elsewhere, time_at_s(0.1 * i), [](Time) { return Pose2{}; }, drive.lidar, drive.random));
+    drive.slam.add(look(
+        elsewhere, time_at_s(0.1 * i), [](Time) { return Pose2{}; }, drive.lidar, drive.random));
   }
   while (drive.slam.next(true)) continue;
   EXPECT_EQ(drive.slam.counters()["slam.times_lost"], 1U);
-  EXPECT_EQ(drive.slam.counters()["slam.scans_unmatched"], 21U) << "the new map is used from its first look on";
+  EXPECT_EQ(drive.slam.counters()["slam.scans_unmatched"], 21U)
+      << "the new map is used from its first look on";
 }
 
 TEST(Slam, KeepsItsMapWhileTheLidarIsCovered) {
@@ -343,14 +345,19 @@ TEST(Slam, ClosesLoopsWhenAsked) {
   EXPECT_LT(drive.worst_m, 0.05);
   const auto trajectory = drive.slam.trajectory();
   ASSERT_EQ(trajectory.size(), 700U);
-  const Pose2 map_T_world = trajectory.front().map_T_robot * Drive::world_T_robot(trajectory.front().stamp).inverse();
+  const Pose2 map_T_world =
+      trajectory.front().map_T_robot * Drive::world_T_robot(trajectory.front().stamp).inverse();
   double worst = 0;
   for (const StampedFix& f : trajectory) {
-    worst = std::max(worst, (f.map_T_robot.translation() - (map_T_world * Drive::world_T_robot(f.stamp)).translation()).norm());
+    worst = std::max(
+        worst,
+        (f.map_T_robot.translation() - (map_T_world * Drive::world_T_robot(f.stamp)).translation()).norm());
   }
   EXPECT_LT(worst, 0.03);
   const GridSnapshot map = drive.slam.global_map().snapshot();
-  const auto state_at = [&](double x, double y) { return map.state(cell_at(map_T_world * Vector2(x, y), map.cell_size_m())); };
+  const auto state_at = [&](double x, double y) {
+    return map.state(cell_at(map_T_world * Vector2(x, y), map.cell_size_m()));
+  };
   EXPECT_EQ(state_at(2.5, 2.5), CellState::kFree);
   EXPECT_EQ(state_at(1.45, 4.0), CellState::kUnknown) << "the inside of the cupboard";
   int wall = 0;
