@@ -85,10 +85,13 @@ TEST(GlobalMap, DrawsNoMoreBlocksThanAllowed) {
 TEST(GlobalMap, LetsGoOfMapsThatNothingShows) {
   GlobalMap map(0.02, 4096);
   const Rows room(60, std::string(60, '.'));
-  for (std::uint32_t id = 0; id < 12; ++id) map.place(drawn(id, room), {});
-  const auto retired = map.retire(10);
-  EXPECT_GT(retired.size(), 3U);
-  EXPECT_EQ(map.active() + retired.size(), 12U);
+  std::size_t retired = 0;
+  for (std::uint32_t id = 0; id < 100; ++id) {
+    map.place(drawn(id, room), {});
+    retired += map.retire(id).size();
+  }
+  EXPECT_EQ(map.active() + retired, 100U);
+  EXPECT_LE(map.active(), HistoryMap::kMostMaps) << "what is kept depends on the building, not on the hours";
   EXPECT_EQ(picture(map, 60, 1).front(), std::string(60, '.'));
 }
 
