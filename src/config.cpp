@@ -21,6 +21,10 @@ std::string read_text(const std::string& path) {
   };
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail("is a directory");
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored) &&
+      path != "/dev/null") {
+    fail("is no regular file");
+  }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(std::strerror(errno));
@@ -53,6 +57,7 @@ Config make_config(const std::optional<std::string>& path, const std::vector<std
   std::vector<std::string> problems;
   if (path) append(problems, read_toml(read_text(*path), *path, keys));
   for (const std::string& setting : settings) append(problems, read_setting(setting, keys));
+  if (const auto problem = config.slam.problem(); problem && problems.empty()) problems.push_back(*problem);
   if (!problems.empty()) throw ConfigError(std::move(problems));
   return config;
 }

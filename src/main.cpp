@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -20,18 +21,16 @@ constexpr int kUnusable = 2;
 
 /// The options that every command takes.
 struct Common {
-  std::string config;
+  std::optional<std::string> config;
   std::vector<std::string> settings;
 
-  void add_to(CLI::App& command) {
-    command.add_option("--config", config, "configuration file (TOML)")->type_name("FILE");
+  void add_to(CLI::App& command, const std::string& file_option) {
+    command.add_option(file_option, config, "configuration file (TOML)")->type_name("FILE");
     command.add_option("--set", settings, "one setting, over what the file says: section.key=value")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
   }
-  dynslam::Config load() const {
-    return dynslam::make_config(config.empty() ? std::nullopt : std::optional(config), settings);
-  }
+  dynslam::Config load() const { return dynslam::make_config(config, settings); }
 };
 
 int run(int argc, char** argv) {
@@ -48,14 +47,12 @@ int run(int argc, char** argv) {
       ->type_name("DIR")
       ->capture_default_str();
   replay->add_flag("--quiet", options.quiet, "no progress and no summary");
-  common.add_to(*replay);
+  common.add_to(*replay, "--config");
 
   CLI::App* check = app.add_subcommand(
       "check-config", "read a configuration file and print all settings as they are in force");
-  check->add_option("file", common.config, "configuration file (TOML)")->required()->type_name("FILE");
-  check->add_option("--set", common.settings, "one setting, over what the file says: section.key=value")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  common.add_to(*check, "file");
+  check->get_option("file")->required();
 
   try {
     app.parse(argc, argv);
@@ -77,7 +74,10 @@ int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("dynslam"));
   spdlog::set_pattern("%n: %^%v%$");
   try {
-    return run(argc, argv);
+    const int code = run(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw std::runtime_error("cannot write to standard output");
+    return code;
   } catch (const dynslam::InputError& e) {
     spdlog::error("{}", e.what());
     return kUnusable;

@@ -19,10 +19,14 @@
 namespace dynslam {
 namespace {
 
+/// Time from scan to scan, summed up; where the clock was set back or leapt a day, nothing is added.
 double duration_s(const ReplayResult& result) {
-  return result.trajectory.empty()
-             ? 0.0
-             : to_seconds(result.trajectory.back().stamp - result.trajectory.front().stamp);
+  double sum = 0.0;
+  for (std::size_t i = 1; i < result.trajectory.size(); ++i) {
+    const double step = to_seconds(result.trajectory[i].stamp - result.trajectory[i - 1].stamp);
+    if (step > 0 && step < 86400) sum += step;
+  }
+  return sum;
 }
 
 long peak_rss_bytes() {
@@ -102,7 +106,7 @@ int run_replay(const ReplayOptions& options, const Config& config) {
         replay(*recording, config.slam, [&](double share, std::uint64_t scans) { bar.show(share, scans); });
   }
   const auto& damage = recording->damage();
-  if (result.trajectory.empty()) {
+  if (result.inserted == 0) {
     throw InputError(damage ? *damage : options.recording + ": holds no usable scan of a lidar");
   }
   write_results(out, result);

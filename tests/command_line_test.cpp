@@ -155,6 +155,20 @@ TEST_F(CommandLine, LeavesAnOlderResultWhenItFails) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "out"), {}), 1) << "nothing half-written is left";
 }
 
+TEST_F(CommandLine, CallsARecordingWithoutAUsableScanByItsName) {
+  const std::string blind = file("blind.log", "FLASER 3 81.9 81.9 81.9 0 0 0 0 0 0 1 host 1\n");
+  expect_one_line(dynslam("replay " + blind + " --out " + (folder_ / "out").string()), 2, "blind.log");
+  EXPECT_FALSE(fs::exists(folder_ / "out/map.png"));
+}
+
+TEST_F(CommandLine, FailsWhenItsOutputIsLost) {
+  expect_one_line(dynslam("check-config " + file("some.toml", "") + " >/dev/full"), 1, "standard output");
+}
+
+TEST_F(CommandLine, TakesNoEmptyNameForAConfig) {
+  expect_one_line(dynslam("replay x --config ''"), 2, "config");
+}
+
 TEST_F(CommandLine, SaysWhereItCannotWrite) {
   const std::string log = file("short.log", short_log(20));
   expect_one_line(dynslam("replay " + log + " --out " + log + "/sub"), 2, "cannot write");

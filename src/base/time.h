@@ -27,7 +27,7 @@ constexpr Duration from_seconds(double s) {
 }
 
 /// Whether a number of seconds from outside fits into a Time; false for NaN.
-constexpr bool is_representable_s(double s) { return s > -9.0e9 && s < 9.0e9; }
+constexpr bool is_representable_s(double s) { return s > -4.0e9 && s < 4.0e9; }
 
 constexpr double seconds_of(Time t) { return to_seconds(t.time_since_epoch()); }
 constexpr Time time_at_s(double s) { return Time(from_seconds(s)); }

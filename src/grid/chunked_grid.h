@@ -52,6 +52,12 @@ class ChunkedGrid {
   explicit ChunkedGrid(double cell_size_m, std::size_t max_chunks = 32768, CellRule rule = {})
       : cell_size_m_(cell_size_m), max_chunks_(max_chunks), rule_(rule) {}
 
+  /// A copy would share chunks that both write to.
+  ChunkedGrid(const ChunkedGrid&) = delete;
+  ChunkedGrid& operator=(const ChunkedGrid&) = delete;
+  ChunkedGrid(ChunkedGrid&&) = default;
+  ChunkedGrid& operator=(ChunkedGrid&&) = default;
+
   double cell_size_m() const { return cell_size_m_; }
   const ChunkBox& box() const { return box_; }
   const Chunk* find(ChunkIndex index) const { return table_.find(index); }
@@ -62,7 +68,8 @@ class ChunkedGrid {
 
   void add_hit(CellIndex c);
   void add_miss(CellIndex c);
-  /// Makes a cell as sure as can be of a state; kUnknown forgets it. Costs nothing where the cell is so already.
+  /// Makes a cell as sure as can be of a state; kUnknown forgets it. Costs nothing where the cell is so
+  /// already.
   void set(CellIndex c, CellState state);
   /// All of a scan at once. Same result as add_hit and add_miss on each of its cells.
   void apply(const ScanFootprint& footprint);

@@ -9,12 +9,18 @@
 namespace dynslam {
 namespace {
 
+/// The angle from one ray to the next in order of bearing, 0 to 2 pi; the last and the first meet at pi.
+float wedge_between(const RayEnd& a, const RayEnd& b) {
+  const float wedge = b.bearing_rad - a.bearing_rad;
+  return wedge < 0 ? wedge + static_cast<float>(kTwoPi) : wedge;
+}
+
 /// Whether two rays next to each other end on one surface. Seen at a flat angle, a wall's ends lie several
 /// arcs apart; a step of more than that, and of more than what noise makes, is an edge with something unseen
 /// behind it.
 bool on_one_surface(const RayEnd& a, const RayEnd& b) {
   const float step = std::abs(a.range_m - b.range_m);
-  const float arc = std::min(a.range_m, b.range_m) * std::abs(b.bearing_rad - a.bearing_rad);
+  const float arc = std::min(a.range_m, b.range_m) * wedge_between(a, b);
   return step <= 0.1F + 3.0F * arc;
 }
 
@@ -22,8 +28,8 @@ bool on_one_surface(const RayEnd& a, const RayEnd& b) {
 /// between them is not so steep that it may be the edge of one thing before another.
 bool is_surface_between(const RayEnd& a, const RayEnd& b, double max_wedge_rad, double cell_size_m) {
   constexpr float kLongest_m = 0.6F;
-  const float wedge = b.bearing_rad - a.bearing_rad;
-  if (wedge <= 0 || wedge > max_wedge_rad) return false;
+  const float wedge = wedge_between(a, b);
+  if (wedge > max_wedge_rad) return false;
   const float step = std::abs(a.range_m - b.range_m);
   const float arc = std::min(a.range_m, b.range_m) * wedge;
   const float length = std::hypot(step, arc);
@@ -110,8 +116,7 @@ void FreeSpace::outline(std::span<const RayEnd> ends, double max_wedge_rad) {
   bool first_joined = false;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t j = i + 1 < n ? i + 1 : 0;
-    const double wedge = ends[j].bearing_rad - ends[i].bearing_rad + (j == 0 ? kTwoPi : 0.0);
-    const bool open = wedge > max_wedge_rad || n == 1;
+    const bool open = n == 1 || wedge_between(ends[i], ends[j]) > max_wedge_rad;
     if (open) {
       add_edge(corners_[i], centre_);
       add_edge(centre_, corners_[j]);

@@ -19,13 +19,13 @@ void HistoryMap::cover(CellIndex cell, std::uint32_t id, double share) {
   trim(stack);
 }
 
-/// Drops what no longer shows: everything below the second map that covers the cell. Where too many saw a little each, the
-/// oldest of these goes, never the ones that cover.
+/// Drops what no longer shows: everything below the last layer that covers the cell. Where too many saw a
+/// little each, the oldest of these goes, never the ones that cover.
 void HistoryMap::trim(Stack& stack) {
   std::size_t covering = 0;
   for (std::size_t i = 0; i < stack.ids.size(); ++i) {
     covering += stack.covers[i] ? 1 : 0;
-    if (covering < 2) continue;
+    if (covering < kLayers) continue;
     stack.ids.resize(i + 1);
     stack.covers.resize(i + 1);
   }
@@ -39,7 +39,8 @@ void HistoryMap::trim(Stack& stack) {
 
 std::span<const std::uint32_t> HistoryMap::maps_at(CellIndex cell) const {
   const auto it = cells_.find(cell);
-  return it == cells_.end() ? std::span<const std::uint32_t>() : std::span<const std::uint32_t>(it->second.ids);
+  return it == cells_.end() ? std::span<const std::uint32_t>()
+                            : std::span<const std::uint32_t>(it->second.ids);
 }
 
 std::set<std::uint32_t> HistoryMap::named() const {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMaxNameLength = 256;
 constexpr double kUnitTolerance = 0.1;
-constexpr double kReach = 1e6;  // metres
+constexpr double kReach = 5.0;  // metres: no part of a small robot is farther from another
 
 std::string_view without_slash(std::string_view name) {
   if (!name.empty() && name.front() == '/') name.remove_prefix(1);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "slam/back_end.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
+
+#include <Eigen/LU>
 
 #include "slam/clean_up.h"
 
@@ -18,8 +19,8 @@ constexpr std::size_t kMostCandidates = 4;
 constexpr std::size_t kLookPoints = 100;  ///< of a map, to see how much of it another may know
 constexpr double kLeastShare = 0.3;
 
-// The odometry between two local maps is a single match of a scan, whose errors of neighbouring beams go together, on a map
-// that is itself a little bent.
+// The odometry between two local maps is a single match of a scan, whose errors of neighbouring beams go
+// together, on a map that is itself a little bent.
 constexpr double kMatchInflation = 4.0;
 constexpr double kBend_m = 0.004;
 constexpr double kBend_rad = 0.0015;
@@ -63,7 +64,8 @@ void BackEnd::finish(const LocalMap& map) {
   add_node(map);
   Finished& entry = maps_[map.id];
   entry.map = finished;
-  for (const CloudPoint& p : finished->cloud) entry.reach_m = std::max<double>(entry.reach_m, std::hypot(p.x_m, p.y_m));
+  for (const CloudPoint& p : finished->cloud)
+    entry.reach_m = std::max<double>(entry.reach_m, std::hypot(p.x_m, p.y_m));
   const bool closed = search_loops(*finished);
   entry.pyramid = std::make_unique<const MaxPyramid>(*finished);
   global_map_.place(finished, graph_.pose(map.id));
@@ -82,7 +84,8 @@ void BackEnd::add_node(const LocalMap& map) {
   const Pose2 before_T_this = last.map->drawn_T_origin.inverse() * map.map_T_origin;
   graph_.add_node(map.id, map_T_drawn_now * map.map_T_origin);
   const Eigen::Matrix3d covariance =
-      map.is_tied ? Eigen::Matrix3d(kMatchInflation * turned_back(map.origin_covariance, last.map->drawn_T_origin.yaw) +
+      map.is_tied ? Eigen::Matrix3d(kMatchInflation *
+                                        turned_back(map.origin_covariance, last.map->drawn_T_origin.yaw) +
                                     spread(kBend_m, kBend_rad))
                   : spread(kLost_m, kLost_rad);
   graph_.add_odometry_edge(before, map.id, before_T_this, covariance);
@@ -94,7 +97,8 @@ bool BackEnd::search_loops(const FinishedMap& source) {
   return any;
 }
 
-/// Maps that may show the same place, those first whose place relative to this one is least known for what they share.
+/// Maps that may show the same place, those first whose place relative to this one is least known for what
+/// they share.
 std::vector<BackEnd::Candidate> BackEnd::candidates(const FinishedMap& source) const {
   std::vector<Candidate> found;
   const std::vector<Vector2> points = thin_out(source.cloud, kLookPoints, 0.1);
@@ -108,7 +112,8 @@ std::vector<BackEnd::Candidate> BackEnd::candidates(const FinishedMap& source) c
     const double unsure_m = std::sqrt(measured.covariance(0, 0) + measured.covariance(1, 1));
     if (guess.translation().norm() > reach_m + other.reach_m + unsure_m) continue;
     int known = 0;
-    for (const Vector2& p : points) known += other.pyramid->is_known(other.pyramid->cell_of(guess * p)) ? 1 : 0;
+    for (const Vector2& p : points)
+      known += other.pyramid->is_known(other.pyramid->cell_of(guess * p)) ? 1 : 0;
     const double share = static_cast<double>(known) / static_cast<double>(points.size());
     if (share < kLeastShare && unsure_m < 1.0) continue;
     found.push_back({id, {guess, measured.covariance}, std::max(share, 0.1) * (0.01 + unsure_m)});
@@ -129,8 +134,9 @@ bool BackEnd::try_loop(const FinishedMap& source, const Candidate& candidate) {
     counters_.add("loops.refused." + std::string(*why));
     return false;
   }
-  const RelativePose closure{match.target_T_source, kClosureInflation * Eigen::Matrix3d(match.information.inverse()) +
-                                                        spread(kClosureBend_m, kClosureBend_rad)};
+  const RelativePose closure{match.target_T_source,
+                             kClosureInflation * Eigen::Matrix3d(match.information.inverse()) +
+                                 spread(kClosureBend_m, kClosureBend_rad)};
   const RelativePose both{closure.pose, closure.covariance + candidate.target_T_source.covariance};
   constexpr double kGate = 25.0;
   if (mahalanobis2(both, candidate.target_T_source.pose) > kGate) {

@@ -16,9 +16,9 @@
 
 namespace dynslam {
 
-/// From complete local maps to a map of everything (thesis, figure 4.3): cleans each, looks for places seen before, lets
-/// the pose graph settle where all of them lie, and draws.
-/// Work is counted, never timed; memory depends on the building, not on the hours. One thread.
+/// From complete local maps to a map of everything (thesis, figure 4.3): cleans each, looks for places seen
+/// before, lets the pose graph settle where all of them lie, and draws. Work is counted, never timed; memory
+/// depends on the building, not on the hours. One thread.
 class BackEnd {
  public:
   explicit BackEnd(const SlamConfig& config);
@@ -26,8 +26,9 @@ class BackEnd {
   /// Takes in the next local map, in order of id.
   void finish(const LocalMap& map);
 
-  /// What is to be put before poses of the front end that were matched against a local map: map_T_drawn. For one that is
-  /// not finished yet, that of the newest that is; for one that was retired, by the map that took its place.
+  /// What is to be put before poses of the front end that were matched against a local map: map_T_drawn. For
+  /// one that is not finished yet, that of the newest that is; for one that was retired, by the map that took
+  /// its place.
   Pose2 map_T_drawn(std::uint32_t local_map_id) const;
 
   GlobalMap& global_map() { return global_map_; }

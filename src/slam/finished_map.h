@@ -17,16 +17,17 @@ struct CloudPoint {
   std::uint8_t weight = 0;  ///< how often it was hit: the hit byte of its cell
 };
 
-/// What is kept of a local map when it is complete and cleaned: an eighth of a byte a cell instead of two bytes.
-/// The bitmaps' cells are those of the frame in which the local map was drawn (the front end's continuous frame);
-/// everything else about it lives in the frame of its origin. Immutable once made; any thread may read it.
+/// What is kept of a local map when it is complete and cleaned: an eighth of a byte a cell instead of two
+/// bytes. The bitmaps' cells are those of the frame in which the local map was drawn (the front end's
+/// continuous frame); everything else about it lives in the frame of its origin. Immutable once made; any
+/// thread may read it.
 struct FinishedMap {
   std::uint32_t id = 0;  ///< counted up; a larger id is a newer map
   double cell_size_m = 0.02;
-  Pose2 drawn_T_origin;  ///< the robot's pose when the map was begun, in the frame it was drawn in
-  Time begun, ended;     ///< stamps of its first and last scan
-  CellBitmap free;       ///< seen to be empty
-  CellBitmap occupied;   ///< surfaces, about one cell thick; never also free
+  Pose2 drawn_T_origin;           ///< the robot's pose when the map was begun, in the frame it was drawn in
+  Time begun, ended;              ///< stamps of its first and last scan
+  CellBitmap free;                ///< seen to be empty
+  CellBitmap occupied;            ///< surfaces, about one cell thick; never also free
   std::vector<CloudPoint> cloud;  ///< the occupied cells as points
 };
 

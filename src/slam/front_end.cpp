@@ -14,8 +14,9 @@ namespace {
 /// How long a scan waits for an IMU that has stopped talking, counted in the time of other samples.
 constexpr Duration kImuPatience = std::chrono::milliseconds(150);
 constexpr std::size_t kMostPoints = 2000;
-/// The bitmaps of a scan grow with the square of this: 32 MiB.
-constexpr int kMostCells = 8000;
+/// Where a pose is nonsense, metres from the origin either way, and odometry too.
+constexpr double kFarthest_m = 1e6;
+constexpr double kFarthestOdometry_m = 1e7;
 /// Less than this since the last scan that counted: the robot stands.
 constexpr double kStanding_m = 0.02;
 constexpr double kStanding_rad = 0.01;
@@ -50,15 +51,15 @@ double fit_of(const MatchResult& result) { return result.known * (2 * result.mat
 /// Enough of the scan lies in space the map knows, and enough of that on what the map holds.
 bool is_believable(const MatchResult& result) { return result.known > 0.1 && result.matched > 0.4; }
 
+bool is_within(const Pose2& pose, double reach_m) {
+  return is_finite(pose) && std::abs(pose.x) < reach_m && std::abs(pose.y) < reach_m;
+}
+
 }  // namespace
 
 FrontEnd::FrontEnd(const SlamConfig& config, StageWatch* watch)
-    : config_(config),
-      watch_(watch),
-      matcher_({.search_half_width_m = config.search_half_width_m}) {
-  if (config.trusted_range_m > kMostCells * config.cell_size_m) {
-    throw InputError("slam.trusted_range_m: more than " + std::to_string(kMostCells) + " cells of slam.cell_size_m");
-  }
+    : config_(config), watch_(watch), matcher_({.search_half_width_m = config.search_half_width_m}) {
+  if (const auto problem = config.problem()) throw InputError(*problem);
 }
 
 void FrontEnd::add(const ImuSample& sample) {
@@ -67,6 +68,10 @@ void FrontEnd::add(const ImuSample& sample) {
 }
 
 void FrontEnd::add(const OdometrySample& sample) {
+  if (!is_within(sample.odom_T_robot, kFarthestOdometry_m)) {
+    counters_.add("odometry.nonsense");
+    return;
+  }
   note_time(sample.stamp);
   motion_.add(sample);
 }
@@ -121,6 +126,7 @@ FrontEndResult FrontEnd::process(const Scan& scan) {
   result.matched = fix.matched;
 
   enter("insert");
+  note_match(fix);
   result.inserted = may_insert(scan, fix);
   motion_.fix(corrected.reference, fix.map_T_robot);
   if (result.inserted) {
@@ -131,15 +137,21 @@ FrontEndResult FrontEnd::process(const Scan& scan) {
   return result;
 }
 
+/// Counts scans that the map does not explain; after too many, a new map begins. A scan that shows nothing
+/// says nothing against the map.
+void FrontEnd::note_match(const Fix& fix) {
+  if (!fix.matched) counters_.add("slam.scans_unmatched");
+  if (points_.empty()) return;
+  unmatched_in_a_row_ = fix.matched ? 0 : unmatched_in_a_row_ + 1;
+  if (unmatched_in_a_row_ <= kMostUnmatched) return;
+  counters_.add("slam.times_lost");
+  complete_all();
+  unmatched_in_a_row_ = 0;
+  usual_hit_ = 0.0;
+}
+
 /// Only what is known to be in its place is drawn, and no scan that was smeared by a fast turn.
 bool FrontEnd::may_insert(const Scan& scan, const Fix& fix) {
-  unmatched_in_a_row_ = fix.matched ? 0 : unmatched_in_a_row_ + 1;
-  if (!fix.matched) counters_.add("slam.scans_unmatched");
-  if (unmatched_in_a_row_ > kMostUnmatched) {
-    counters_.add("slam.times_lost");
-    complete_all();
-    unmatched_in_a_row_ = 0;
-  }
   const bool takes_time = !scan.beams.empty() && scan.beams.back().time_s != scan.beams.front().time_s;
   if (takes_time && std::abs(motion_.yaw_rate(reference_time(scan))) > config_.skip_yaw_rate_radps) {
     counters_.add("slam.scans_skipped_turning");
@@ -185,12 +197,18 @@ FrontEnd::Fix FrontEnd::locate(const CorrectedScan& scan) {
   }
   fix.matched = is_believable(fix.match);
   fix.map_T_robot = fix.matched ? fix.match.map_T_robot : prior.map_T_robot;
+  if (!is_within(fix.map_T_robot, kFarthest_m)) {
+    counters_.add("slam.nonsense_poses");
+    fix.map_T_robot = motion_.last_pose();
+    fix.matched = false;
+  }
   if (fix.matched) usual_hit_ += (usual_hit_ == 0 ? 1.0 : kUsualShare) * (fix.match.mean_hit - usual_hit_);
   return fix;
 }
 
 void FrontEnd::begin_local_map(const Fix& fix, Time t) {
-  local_maps_.emplace_back(config_.cell_size_m, static_cast<std::size_t>(config_.max_chunks), fix.map_T_robot, t);
+  local_maps_.emplace_back(config_.cell_size_m, static_cast<std::size_t>(config_.max_chunks), fix.map_T_robot,
+                           t);
   local_maps_.back().id = next_id_++;
   local_maps_.back().origin_covariance = fix.match.covariance;
   local_maps_.back().is_tied = local_maps_.size() > 1;
@@ -248,7 +266,8 @@ void FrontEnd::insert(const CorrectedScan& scan, const Pose2& map_T_robot) {
 
 /// The scan's pose is that of its middle; its stamp is that of its first beam, a few centimetres of way
 /// earlier.
-Pose2 FrontEnd::pose_at_stamp(const Scan& scan, const CorrectedScan& corrected, const Pose2& map_T_robot) const {
+Pose2 FrontEnd::pose_at_stamp(const Scan& scan, const CorrectedScan& corrected,
+                              const Pose2& map_T_robot) const {
   const Pose2 back = motion_.motion_around(corrected.reference)(scan.stamp);
   Pose2 at = map_T_robot * back;
   if (motion_.has_fix() && motion_.last_time() <= scan.stamp && corrected.reference > motion_.last_time()) {

@@ -32,15 +32,15 @@ struct FrontEndResult {
   bool inserted = false;  ///< drawn into the local maps
 };
 
-/// From sensor samples to poses and local maps (thesis, figure 4.2). Its frame is continuous: poses are never corrected
-/// afterwards, they drift. What the drift was, the back end finds.
+/// From sensor samples to poses and local maps (thesis, figure 4.2). Its frame is continuous: poses are never
+/// corrected afterwards, they drift. What the drift was, the back end finds.
 ///
 /// Samples go in as they arrive. A scan waits until the IMU has told of its whole turn, or has fallen silent;
 /// then `next` takes it through the stages. Results depend on the samples and their order alone, never on a
 /// clock. One thread.
 class FrontEnd {
  public:
-  /// `watch`, when given, must outlive this. Throws InputError when a trusted ray is longer than 8000 cells.
+  /// `watch`, when given, must outlive this. Throws InputError for a config with a problem().
   explicit FrontEnd(const SlamConfig& config, StageWatch* watch = nullptr);
 
   void add(const ImuSample& sample);
@@ -81,6 +81,7 @@ class FrontEnd {
   CorrectedScan correct(const Scan& scan);
   Fix first_fix(Time t);
   Fix locate(const CorrectedScan& scan);
+  void note_match(const Fix& fix);
   bool may_insert(const Scan& scan, const Fix& fix);
   void insert(const CorrectedScan& scan, const Pose2& map_T_robot);
   void begin_local_map(const Fix& fix, Time t);

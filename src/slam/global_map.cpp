@@ -2,13 +2,14 @@
 #include "slam/global_map.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 
 namespace dynslam {
 namespace {
 
+constexpr double kTile_m = 0.25;
 constexpr int kWall = 2;  ///< cells: an older surface this near to a newer one is the same
 
 enum class Word : std::uint8_t { kSilent, kFree, kOccupied, kNoWall };
@@ -31,8 +32,8 @@ struct Witness {
             static_cast<std::int32_t>(std::floor(y + s * map_x + c * map_y))};
   }
 
-  /// What the map says of the cell with this centre (in cells). A line one cell thick falls between the centres of a turned
-  /// grid, so surfaces are looked for at four places in the cell.
+  /// What the map says of the cell with this centre (in cells). A line one cell thick falls between the
+  /// centres of a turned grid, so surfaces are looked for at four places in the cell.
   Word say(double centre_x, double centre_y) const {
     for (const auto& [dx, dy] : {std::pair{-0.25, -0.25}, {0.25, -0.25}, {-0.25, 0.25}, {0.25, 0.25}}) {
       if (map->occupied.test(cell(centre_x + dx, centre_y + dy))) return Word::kOccupied;
@@ -67,7 +68,8 @@ std::pair<std::int32_t, std::int32_t> cells_of_block(std::int32_t block, double 
 void GlobalMap::place(std::shared_ptr<const FinishedMap> map, const Pose2& map_T_origin) {
   const std::uint32_t id = map->id;
   auto near = std::make_shared<const CellBitmap>(map->occupied.grown(kWall));
-  Placed& placed = maps_[id] = {std::move(map), std::move(near), map_T_origin, {}};
+  std::vector<Tile> tiles = tiles_of(*map);
+  Placed& placed = maps_[id] = {std::move(map), std::move(near), std::move(tiles), map_T_origin, {}};
   cover(id, placed);
 }
 
@@ -95,31 +97,42 @@ void GlobalMap::remove(std::uint32_t id) {
   rebuild_history();
 }
 
-/// Finds how much of each block a map knows, by looking at a few cells of each, and notes it.
-void GlobalMap::cover(std::uint32_t id, Placed& placed) {
-  constexpr int kLooks = 5;  // a row
-  const FinishedMap& m = *placed.map;
-  const Witness witness(m, *placed.near_surface, placed.map_T_origin);
-  const Pose2 map_T_drawn = placed.map_T_origin * m.drawn_T_origin.inverse();
-  const CellBitmap& bits = m.free;
-  const CellIndex low = bits.first();
-  const double w = bits.words_per_row() * kChunkSide, h = bits.rows();
-  Vector2 min(1e300, 1e300), max(-1e300, -1e300);
-  for (const Vector2& corner : {Vector2(0, 0), Vector2(w, 0), Vector2(0, h), Vector2(w, h)}) {
-    const Vector2 p = map_T_drawn * Vector2((low.x + corner.x()) * m.cell_size_m, (low.y + corner.y()) * m.cell_size_m);
-    min = min.cwiseMin(p), max = max.cwiseMax(p);
-  }
-  const CellIndex first = cell_at(min, kBlock_m), last = cell_at(max, kBlock_m);
-  const double step = kBlock_m / m.cell_size_m / kLooks;
-  for (std::int32_t y = first.y; y <= last.y; ++y) {
-    for (std::int32_t x = first.x; x <= last.x; ++x) {
-      int known = 0;
-      for (int i = 0; i < kLooks * kLooks; ++i) {
-        const Word word = witness.say((x * kLooks + i % kLooks + 0.5) * step, (y * kLooks + i / kLooks + 0.5) * step);
-        known += word == Word::kFree || word == Word::kOccupied ? 1 : 0;
+std::vector<GlobalMap::Tile> GlobalMap::tiles_of(const FinishedMap& map) {
+  const int side = std::max(1, static_cast<int>(std::lround(kTile_m / map.cell_size_m)));
+  const CellIndex first = map.free.first();
+  const int columns = (map.free.words_per_row() * kChunkSide + side - 1) / side;
+  std::vector<int> known(static_cast<std::size_t>(columns) *
+                         static_cast<std::size_t>((map.free.rows() + side - 1) / side));
+  for (int y = 0; y < map.free.rows(); ++y) {
+    for (int w = 0; w < map.free.words_per_row(); ++w) {
+      for (std::uint64_t bits = map.free.row(y)[w] | map.occupied.row(y)[w]; bits != 0; bits &= bits - 1) {
+        const int x = w * kChunkSide + std::countr_zero(bits);
+        ++known[static_cast<std::size_t>(y / side * columns + x / side)];
       }
-      if (known == 0) continue;
-      placed.shares[{x, y}] = static_cast<double>(known) / (kLooks * kLooks);
+    }
+  }
+  std::vector<Tile> tiles;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known[i] == 0) continue;
+    const double x = (static_cast<double>(i % static_cast<std::size_t>(columns)) + 0.5) * side;
+    const double y = (static_cast<double>(i / static_cast<std::size_t>(columns)) + 0.5) * side;
+    tiles.push_back({Vector2((first.x + x) * map.cell_size_m, (first.y + y) * map.cell_size_m), known[i]});
+  }
+  return tiles;
+}
+
+/// Adds up how much of each block a map knows where it is now. A tile counts for the block that its centre
+/// lies in; the blocks that its corners lie in have to be drawn from it too.
+void GlobalMap::cover(std::uint32_t id, Placed& placed) {
+  constexpr double kAtAll = 1e-3;
+  const double cell_share = std::pow(placed.map->cell_size_m / kBlock_m, 2);
+  const Pose2 map_T_drawn = placed.map_T_origin * placed.map->drawn_T_origin.inverse();
+  const double half = 0.75 * kTile_m;  // to a corner, and some for the turn
+  for (const Tile& tile : placed.tiles) {
+    const Vector2 centre = map_T_drawn * tile.centre_drawn;
+    placed.shares[cell_at(centre, kBlock_m)] += tile.known * cell_share;
+    for (const auto& [dx, dy] : {std::pair{-half, -half}, {half, -half}, {-half, half}, {half, half}}) {
+      placed.shares[cell_at(centre + Vector2(dx, dy), kBlock_m)] += kAtAll;
     }
   }
   for (const auto& [block, share] : placed.shares) {
@@ -156,7 +169,8 @@ void GlobalMap::draw(CellIndex block) {
   std::vector<Witness> newest_first;
   for (const std::uint32_t id : history_.maps_at(block)) {
     const auto it = maps_.find(id);
-    if (it != maps_.end()) newest_first.emplace_back(*it->second.map, *it->second.near_surface, it->second.map_T_origin);
+    if (it != maps_.end())
+      newest_first.emplace_back(*it->second.map, *it->second.near_surface, it->second.map_T_origin);
   }
   const auto [left, right] = cells_of_block(block.x, grid_.cell_size_m());
   const auto [low, high] = cells_of_block(block.y, grid_.cell_size_m());

@@ -16,10 +16,11 @@ namespace dynslam {
 
 /// The map of everything, drawn from finished local maps where the pose graph has put them (thesis 4.1.5).
 ///
-/// Each cell shows what the newest local map that knows it says. A map that is silent about a cell leaves what older ones
-/// said, except right beside its own surfaces: an older wall drawn a cell or two behind a newer one is the same wall.
-/// Work is counted in blocks, the cells of the history map: only those that changed are drawn again, as many a turn as the
-/// caller allows. One thread; readers take snapshots of grid().
+/// Each cell shows what the newest local map that knows it says. A map that is silent about a cell leaves
+/// what older ones said, except right beside its own surfaces: an older wall drawn a cell or two behind a
+/// newer one is the same wall. Work is counted in blocks, the cells of the history map: only those that
+/// changed are drawn again, as many a turn as the caller allows. One thread; readers take snapshots of
+/// grid().
 class GlobalMap {
  public:
   static constexpr double kBlock_m = 0.5;  ///< side of a block
@@ -44,12 +45,19 @@ class GlobalMap {
   const ChunkedGrid& grid() const { return grid_; }
 
  private:
+  /// A quarter of a metre of a map, and how many of its cells the map knows.
+  struct Tile {
+    Vector2 centre_drawn;
+    int known = 0;
+  };
   struct Placed {
     std::shared_ptr<const FinishedMap> map;
     std::shared_ptr<const CellBitmap> near_surface;  ///< cells within two of an occupied one
+    std::vector<Tile> tiles;                         ///< those with known cells
     Pose2 map_T_origin;
     std::map<CellIndex, double> shares;  ///< of the blocks that it knows something of, where it is now
   };
+  static std::vector<Tile> tiles_of(const FinishedMap& map);
   void cover(std::uint32_t id, Placed& placed);
   void uncover(Placed& placed);
   void rebuild_history();

@@ -26,7 +26,8 @@ void ImuTrack::add(const ImuSample& sample) {
 /// A mean over all that was seen at first, over the last half minute later.
 void ImuTrack::learn_usual_tilt(const Heading& heading) {
   constexpr double kMemory_s = 30.0;
-  const double dt = samples_.size() < 2 ? 0.01 : to_seconds(heading.stamp - samples_[samples_.size() - 2].stamp);
+  const double dt =
+      samples_.size() < 2 ? 0.01 : to_seconds(heading.stamp - samples_[samples_.size() - 2].stamp);
   tilt_known_s_ = std::min(kMemory_s, tilt_known_s_ + std::min(dt, 0.1));
   usual_tilt_ = usual_tilt_.slerp(std::min(1.0, dt / tilt_known_s_), heading.tilt);
 }
@@ -48,7 +49,8 @@ void ImuTrack::smooth_last_but_one() {
 }
 
 std::deque<ImuTrack::Heading>::const_iterator ImuTrack::after(Time t) const {
-  if (samples_.size() < 2 || t < samples_.front().stamp || t > samples_.back().stamp + kCarryOn) return samples_.end();
+  if (samples_.size() < 2 || t < samples_.front().stamp || t > samples_.back().stamp + kCarryOn)
+    return samples_.end();
   auto it = std::lower_bound(samples_.begin(), samples_.end(), t,
                              [](const Heading& h, Time time) { return h.stamp < time; });
   if (it == samples_.begin()) ++it;

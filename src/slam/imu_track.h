@@ -27,8 +27,9 @@ class ImuTrack {
   /// kLongestGap, or before the oldest sample kept.
   std::optional<double> heading_at(Time t) const;
 
-  /// Roll and pitch at a time, as the turn from the robot's axes to level ones of the same heading. An IMU is seldom mounted
-  /// quite level: what is usual over half a minute counts as level. Nothing is said where heading_at says nothing.
+  /// Roll and pitch at a time, as the turn from the robot's axes to level ones of the same heading. An IMU is
+  /// seldom mounted quite level: what is usual over half a minute counts as level. Nothing is said where
+  /// heading_at says nothing.
   std::optional<Eigen::Quaterniond> tilt_at(Time t) const;
   /// How fast roll and pitch change around a time, rad/s; 0 where nothing is known.
   double tilt_rate(Time t) const;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "base/pose2.h"
 #include "base/time.h"
@@ -33,8 +34,8 @@ struct LocalMap {
   Eigen::Matrix3d origin_covariance = Eigen::Matrix3d::Zero();
   bool is_tied = false;  ///< begun at a scan that was matched against the map before
   Time begun, ended;
-  int scans = 0;          ///< that count: taken in motion
-  double travel_m = 0.0;  ///< since it was begun
+  int scans = 0;                         ///< that count: taken in motion
+  double travel_m = 0.0;                 ///< since it was begun
   std::vector<Vector2> robot_positions;  ///< where scans that count were taken, in the frame it is drawn in
 };
 

@@ -15,6 +15,11 @@ constexpr double kLongestCarryOn_s = 1.0;
 
 /// Faster than any indoor robot: such a step of the wheels' count is a fault of the count.
 constexpr double kFastest_mps = 5.0;
+constexpr double kLongestWay_s = 20.0;
+
+// A wider search than this costs more than it finds.
+constexpr double kLeastKnown_m = 0.6;
+constexpr double kLeastKnown_rad = 0.35;
 
 }  // namespace
 
@@ -28,7 +33,8 @@ std::optional<Pose2> MotionModel::wheel_motion(Time from, Time to) const {
   const auto a = odometry_.pose_at(from), b = odometry_.pose_at(to);
   if (!a || !b) return std::nullopt;
   const Pose2 step = a->inverse() * *b;
-  if (step.translation().norm() > 0.5 + kFastest_mps * to_seconds(to - from)) return std::nullopt;
+  const double most_m = 0.5 + kFastest_mps * std::clamp(to_seconds(to - from), 0.0, kLongestWay_s);
+  if (!(step.translation().norm() <= most_m)) return std::nullopt;  // nor what is not a number
   return step;
 }
 
@@ -48,7 +54,7 @@ MatchPrior MotionModel::expect(Time t) const {
       dt < 0 ? 1.0 : std::min(dt, 2.0);  // back in time: the clock was set, nothing is known
   MatchPrior prior;
   prior.sigma_xy_m = 0.02 + 0.5 * kAcceleration_mps2 * unsure_s * unsure_s;
-  prior.sigma_yaw_rad = 0.005 + std::min(0.5, 0.5 * kTurnAcceleration_radps2 * unsure_s * unsure_s);
+  prior.sigma_yaw_rad = 0.005 + 0.5 * kTurnAcceleration_radps2 * unsure_s * unsure_s;
   if (const auto wheels = wheel_motion(time_, t)) {
     step = *wheels;
     const double travel = step.translation().norm(), turned = std::abs(step.yaw);
@@ -59,6 +65,8 @@ MatchPrior MotionModel::expect(Time t) const {
     step.yaw = *turned;
     prior.sigma_yaw_rad = 0.004 + 0.004 * std::abs(*turned);
   }
+  prior.sigma_xy_m = std::min(prior.sigma_xy_m, kLeastKnown_m);
+  prior.sigma_yaw_rad = std::min(prior.sigma_yaw_rad, kLeastKnown_rad);
   prior.map_T_robot = pose_ * step;
   return prior;
 }

@@ -20,7 +20,8 @@ std::vector<Ray> clamp_pass(const Scan& scan, const SlamConfig& config) {
 }
 
 void level_pass(const Scan& scan, const TiltInScan& tilt, const HeightBand& band, std::vector<Ray>& rays) {
-  constexpr std::size_t kStride = 16;  // a tilt serves a few beams: a robot takes longer to tip than they take
+  constexpr std::size_t kStride =
+      16;  // a tilt serves a few beams: a robot takes longer to tip than they take
   constexpr double kLevel_rad = 0.003;
   const auto mount = static_cast<float>(scan.mount.robot_T_lidar.yaw);
   const auto down = static_cast<float>(std::max(0.0, scan.mount.height_m - band.low_m));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Geometry>
 #include <functional>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "base/pose2.h"
 #include "base/scan.h"
@@ -37,7 +38,8 @@ using MotionInScan = std::function<Pose2(Time)>;
 /// Roll and pitch at a time: turns the robot's axes into level ones of the same heading.
 using TiltInScan = std::function<Eigen::Quaterniond(Time)>;
 
-/// What a lidar on a robot of this height should see: neither floor nor what the robot passes under, metres above the floor.
+/// What a lidar on a robot of this height should see: neither floor nor what the robot passes under, metres
+/// above the floor.
 struct HeightBand {
   double low_m = 0.05;
   double high_m = 0.60;

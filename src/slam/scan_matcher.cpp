@@ -15,6 +15,9 @@ namespace {
 
 constexpr int kCoarse = HitWindow::kPool;  ///< side of a cell of the wide search, in cells
 constexpr int kMostFineHalf = 7;           ///< a row of 2 * 7 + 1 shifts is one load
+// Bounds on the work of a wide search, whatever the prior and the cell size: some ten milliseconds.
+constexpr int kMostCoarseHalf = 24;
+constexpr int kMostCoarseYaws = 60;
 constexpr std::size_t kMostSparse = 360;
 constexpr std::size_t kCandidates = 4;
 constexpr int kMostIterations = 10;
@@ -57,15 +60,19 @@ MatchResult ScanMatcher::match(const ChunkedGrid& map, std::span<const MatchPoin
   if (!points_robot.empty() && map.chunk_count() > 0) {
     const double half_xy = std::max(config_.search_half_width_m / cell, config_.window_sigmas * sigma_cells);
     const double half_yaw = config_.window_sigmas * prior.sigma_yaw_rad;
+    choose_sparse(points_robot);
     const bool wide = half_xy > kMostFineHalf;
+    // The search ends on whole steps beyond its range and looks around its candidates; refinement may stray
+    // from there.
+    const double reach = half_xy + (wide ? 3 * kCoarse : 1) + kStray;
+    const double turn_reach = half_yaw + (2 * kCoarse + kStray) / far_cells_;
     const auto load = [&](std::uint8_t unknown) {
-      fine_.load(map, points_robot, expected, static_cast<float>(half_xy + (wide ? 2 * kCoarse : kStray)),
-                 static_cast<float>(1.2 * half_yaw + 0.02), gain, unknown);
+      fine_.load(map, points_robot, expected, static_cast<float>(reach), static_cast<float>(turn_reach), gain,
+                 unknown);
     };
     load(wide ? kUnknownWorth : std::uint8_t{0});
     const Pose2 first{static_cast<double>(fine_.first().x), static_cast<double>(fine_.first().y), 0};
     expected_.window_T_robot = {expected.x - first.x, expected.y - first.y, expected.yaw};
-    choose_sparse(points_robot);
     const Candidate best = search_all(half_xy, half_yaw);
     if (wide) load(0);
     found = first * refine(points_robot, best.window_T_robot, information);
@@ -166,8 +173,9 @@ ScanMatcher::Candidate ScanMatcher::search_all(double half_xy_cells, double half
   }
   coarse_.pool(fine_);
   const double coarse_yaw = kCoarse * fine_yaw;
-  const SearchRange wide{static_cast<int>(std::ceil(half_xy_cells / kCoarse)),
-                         static_cast<int>(std::ceil(half_yaw_rad / coarse_yaw)), coarse_yaw};
+  const SearchRange wide{std::min(kMostCoarseHalf, static_cast<int>(std::ceil(half_xy_cells / kCoarse))),
+                         std::min(kMostCoarseYaws, static_cast<int>(std::ceil(half_yaw_rad / coarse_yaw))),
+                         coarse_yaw};
   Candidate best{centre, -1e300};
   for (const Candidate& r :
        search(coarse_, {centre.x / kCoarse, centre.y / kCoarse, centre.yaw}, wide, kCoarse, kCandidates)) {
@@ -194,7 +202,8 @@ Pose2 ScanMatcher::refine(std::span<const MatchPoint> points, const Pose2& start
     information = kEvidence * fit.information + prior_info;
     const Eigen::Vector3d step = information.ldlt().solve(kEvidence * fit.gradient + prior_info * off);
     pose = {pose.x + step.x(), pose.y + step.y(), pose.yaw + step.z()};
-    const bool strayed = std::abs(pose.x - start.x) > kStray || std::abs(pose.y - start.y) > kStray;
+    const bool strayed = std::abs(pose.x - start.x) > kStray || std::abs(pose.y - start.y) > kStray ||
+                         std::abs(pose.yaw - start.yaw) * far_cells_ > kStray;
     if (strayed || !is_finite(pose)) return start;
     const double moved = std::max(step.head<2>().norm(), std::abs(step.z()) * far_cells_);
     if (settled || moved < kSettled || iteration + kLastSteps >= kMostIterations) --last_steps;

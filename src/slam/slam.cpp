@@ -6,7 +6,11 @@
 namespace dynslam {
 
 Slam::Slam(const SlamConfig& config, StageWatch* watch)
-    : config_(config), watch_(watch), front_end_(config, watch), back_end_(config), live_map_(config.cell_size_m, static_cast<std::size_t>(config.max_chunks)) {}
+    : config_(config),
+      watch_(watch),
+      front_end_(config, watch),
+      back_end_(config),
+      live_map_(config.cell_size_m, static_cast<std::size_t>(config.max_chunks)) {}
 
 std::optional<ScanResult> Slam::next(bool at_end) {
   const auto fix = front_end_.next(at_end);
@@ -58,14 +62,16 @@ void Slam::finish() {
 std::vector<StampedFix> Slam::trajectory() const {
   std::vector<StampedFix> poses;
   poses.reserve(visits_.size());
-  for (const Visit& v : visits_) poses.push_back({v.stamp, back_end_.map_T_drawn(v.local_map_id) * v.drawn_T_robot});
+  for (const Visit& v : visits_)
+    poses.push_back({v.stamp, back_end_.map_T_drawn(v.local_map_id) * v.drawn_T_robot});
   return poses;
 }
 
 Counters Slam::counters() const {
   Counters all = front_end_.counters();
   for (const auto& [name, n] : back_end_.counters()) all.add(name, n);
-  const std::uint64_t refused = (config_.close_loops ? back_end_.global_map().grid() : live_map_).cells_refused();
+  const std::uint64_t refused =
+      (config_.close_loops ? back_end_.global_map().grid() : live_map_).cells_refused();
   if (refused > 0) all.add("map.cells_refused", refused);
   return all;
 }

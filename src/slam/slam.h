@@ -27,12 +27,12 @@ struct StampedFix {
   Pose2 map_T_robot;
 };
 
-/// Front end and back end in one thread: from sensor samples to poses and a map of everything. A correction by the back
-/// end reaches the poses a fixed number of scans later, as it would if the back end had a thread of its own; so the same
-/// samples give the same results on every machine.
+/// Front end and back end in one thread: from sensor samples to poses and a map of everything. A correction
+/// by the back end reaches the poses a fixed number of scans later, as it would if the back end had a thread
+/// of its own; so the same samples give the same results on every machine.
 class Slam {
  public:
-  /// `watch`, when given, must outlive this. Throws InputError when a trusted ray is longer than 8000 cells.
+  /// `watch`, when given, must outlive this. Throws InputError for a config with a problem().
   explicit Slam(const SlamConfig& config, StageWatch* watch = nullptr);
 
   void add(const ImuSample& sample) { front_end_.add(sample); }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "base/config_field.h"
 
 namespace dynslam {
@@ -17,6 +20,17 @@ struct SlamConfig {
   bool close_loops = false;
   int correction_delay_scans = 5;
   int max_chunks = 16384;
+
+  /// Cells along a trusted ray: what a scan costs grows with its square.
+  static constexpr int kMostCells = 4000;
+
+  /// What is wrong with the values together, if anything.
+  std::optional<std::string> problem() const {
+    if (trusted_range_m > kMostCells * cell_size_m)
+      return "slam.trusted_range_m: more than 4000 cells of slam.cell_size_m";
+    if (min_range_m >= trusted_range_m) return "slam.min_range_m: not less than slam.trusted_range_m";
+    return std::nullopt;
+  }
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -36,9 +50,11 @@ struct SlamConfig {
     visit(Field{"search_half_width_m", "least half width of the square in which a scan is searched for", 0.02,
                 1.0},
           self.search_half_width_m);
-    visit(Field{"close_loops", "recognise places seen before and straighten the map (costs more time and memory still)"},
+    visit(Field{"close_loops",
+                "recognise places seen before and straighten the map (costs more time and memory still)"},
           self.close_loops);
-    visit(Field{"correction_delay_scans", "in a replay, a closed loop moves the pose so many scans later", 0, 1000},
+    visit(Field{"correction_delay_scans", "in a replay, a closed loop moves the pose so many scans later", 0,
+                1000},
           self.correction_delay_scans);
     visit(Field{"max_chunks", "most chunks of 8 KiB a map may take (16384: 128 MiB, 26800 m2 at 2 cm)", 64,
                 4194304},

@@ -158,6 +158,25 @@ TEST(FreeSpace, CoversWhatWalkingEachRayCoversButTheGrazedRim) {
   for (const CellIndex c : walked) EXPECT_TRUE(cells.contains(c)) << c.x << " " << c.y;
 }
 
+TEST(FreeSpace, SeesTheSameAcrossTheSeamOfTheCircle) {
+  // A room with a near thing whose edge lies where bearings jump from pi to -pi, and the same scene turned
+  // away from there.
+  const auto scene = [](double turned) {
+    auto ends = full_turn(720, square_room);
+    for (RayEnd& e : ends) {
+      const double seen = wrap_angle(e.bearing_rad - turned);
+      e = ray(e.bearing_rad, seen > 0.0 && seen < 0.5 ? 0.8 : 2.0);
+    }
+    return ends;
+  };
+  FreeSpace free_space;
+  const auto at_seam = scene(kPi), elsewhere = scene(0.0);
+  const ScanFootprint f = free_space.trace({}, at_seam, radians(2), kCell);
+  const ScanFootprint g = free_space.trace({0, 0, kPi}, elsewhere, radians(2), kCell);
+  EXPECT_NEAR(static_cast<double>(f.misses.count()), static_cast<double>(g.misses.count()), 12);
+  EXPECT_NEAR(static_cast<double>(f.hits.size()), static_cast<double>(g.hits.size()), 6);
+}
+
 TEST(FreeSpace, LeavesTheShadowBehindANearThingAlone) {
   FreeSpace free_space;
   auto ends = full_turn(720, square_room);

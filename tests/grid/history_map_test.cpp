@@ -19,9 +19,10 @@ TEST(HistoryMap, KnowsNothingWhereNoMapWas) {
 
 TEST(HistoryMap, ANewerMapThatSeesAllTakesAPlaceOver) {
   HistoryMap history;
-  for (std::uint32_t id = 1; id <= 5; ++id) history.cover({0, 0}, id, 0.9);
-  EXPECT_THAT(history.maps_at({0, 0}), ElementsAre(5, 4)) << "the newest, and one below to fill in what it left";
-  EXPECT_EQ(history.named(), (std::set<std::uint32_t>{4, 5}));
+  for (std::uint32_t id = 1; id <= 9; ++id) history.cover({0, 0}, id, 0.9);
+  EXPECT_THAT(history.maps_at({0, 0}), ElementsAre(9, 8, 7, 6, 5, 4))
+      << "and those below fill in what it left open";
+  EXPECT_EQ(history.named(), (std::set<std::uint32_t>{4, 5, 6, 7, 8, 9}));
 }
 
 TEST(HistoryMap, ANewerMapThatSeesLessDoesNot) {
@@ -39,9 +40,8 @@ TEST(HistoryMap, TakesMapsInAnyOrderAndTheLatestWordOnOne) {
   history.cover({0, 0}, 2, 0.2);
   history.cover({0, 0}, 3, 0.2);
   EXPECT_THAT(history.maps_at({0, 0}), ElementsAre(4, 3, 2));
-  history.cover({0, 0}, 3, 0.9);
-  history.cover({0, 0}, 4, 0.9);
-  EXPECT_THAT(history.maps_at({0, 0}), ElementsAre(4, 3));
+  for (std::uint32_t id = 3; id < 3 + HistoryMap::kLayers; ++id) history.cover({0, 0}, id, 0.9);
+  EXPECT_THAT(history.maps_at({0, 0}), ElementsAre(8, 7, 6, 5, 4, 3));
 }
 
 TEST(HistoryMap, StaysShortWhereManyMapsSawALittle) {

@@ -71,15 +71,17 @@ TEST(ImuTrack, SaysNothingAcrossAGap) {
 
 TEST(ImuTrack, TakesTheUsualTiltForLevel) {
   const auto tilted = [](double t_s, double pitch) {
-    return ImuSample{time_at_s(t_s), Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()) *
-                                         Eigen::Quaterniond(Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()))};
+    return ImuSample{time_at_s(t_s),
+                     Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()) *
+                         Eigen::Quaterniond(Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()))};
   };
   ImuTrack track;
   EXPECT_FALSE(track.tilt_at(time_at_s(0)));
   EXPECT_EQ(track.tilt_rate(time_at_s(0)), 0.0);
   for (int i = 0; i < 3000; ++i) track.add(tilted(0.01 * i, 0.05));  // mounted askew by three degrees
   EXPECT_LT(track.tilt_at(time_at_s(29.9))->angularDistance(Eigen::Quaterniond::Identity()), 1e-3);
-  for (int i = 3000; i < 3020; ++i) track.add(tilted(0.01 * i, 0.05 + 0.005 * (i - 2999)));  // over a doorstep
+  for (int i = 3000; i < 3020; ++i)
+    track.add(tilted(0.01 * i, 0.05 + 0.005 * (i - 2999)));  // over a doorstep
   EXPECT_NEAR(track.tilt_at(time_at_s(30.19))->angularDistance(Eigen::Quaterniond::Identity()), 0.1, 0.01);
   EXPECT_NEAR(track.tilt_rate(time_at_s(30.1)), 0.5, 0.1);
 }

@@ -81,12 +81,14 @@ TEST(EgomotionPass, PutsAScanTakenInMotionRight) {
 }
 
 TEST(LevelPass, LaysTiltedRaysDownAndCutsThoseThatMeetTheFloor) {
-  // Nose down by 3 degrees: ahead, the plane of the lidar meets the band's lower rim at 0.13 / sin(3 deg) = 2.48 m.
+  // Nose down by 3 degrees: ahead, the plane of the lidar meets the band's lower rim at 0.13 / sin(3 deg)
+  // = 2.48 m.
   const Eigen::Quaterniond nose_down(Eigen::AngleAxisd(radians(3), Eigen::Vector3d::UnitY()));
   Scan scan;
   scan.mount.height_m = 0.18;
   std::vector<Ray> rays = {{0, 2.0F, 0, true}, {0, 4.0F, 0, true}, {static_cast<float>(kPi), 4.0F, 0, true}};
-  level_pass(scan, [&](Time) { return nose_down; }, {.low_m = 0.05, .high_m = 0.6}, rays);
+  level_pass(
+      scan, [&](Time) { return nose_down; }, {.low_m = 0.05, .high_m = 0.6}, rays);
   EXPECT_TRUE(rays[0].hit);
   EXPECT_NEAR(rays[0].range_m, 2.0 * std::cos(radians(3)), 1e-4);
   EXPECT_FALSE(rays[1].hit);
@@ -96,7 +98,8 @@ TEST(LevelPass, LaysTiltedRaysDownAndCutsThoseThatMeetTheFloor) {
 
 TEST(LevelPass, LeavesALevelRobotAlone) {
   std::vector<Ray> rays = {{1, 2, 0, true}};
-  level_pass({}, [](Time) { return Eigen::Quaterniond::Identity(); }, {}, rays);
+  level_pass(
+      {}, [](Time) { return Eigen::Quaterniond::Identity(); }, {}, rays);
   EXPECT_EQ(rays[0].range_m, 2.0F);
   EXPECT_EQ(rays[0].angle_rad, 1.0F);
 }

@@ -268,6 +268,107 @@ TEST(Slam, SaysThatAScanDoesNotMatchAndStartsAnewWhenNoneDoes) {
   EXPECT_EQ(drive.slam.counters()["slam.times_lost"], 1U);
 }
 
+TEST(Slam, StartsAnewOnAMapOfOneLookAfterOneOfMany) {
+  Drive drive;
+  for (int i = 0; i < 60; ++i) drive.scan(0.1 * i);
+  DrawnWorld elsewhere;
+  elsewhere.add_box(-0.4, -0.5, 0.45, 0.4);
+  for (int i = 60; i < 160; ++i) {
+    drive.slam.add(look(
+        elsewhere, time_at_s(0.1 * i), [](Time) { return Pose2{}; }, drive.lidar, drive.random));
+  }
+  while (drive.slam.next(true)) continue;
+  EXPECT_EQ(drive.slam.counters()["slam.times_lost"], 1U);
+  EXPECT_EQ(drive.slam.counters()["slam.scans_unmatched"], 21U)
+      << "the new map is used from its first look on";
+}
+
+TEST(Slam, KeepsItsMapWhileTheLidarIsCovered) {
+  Drive drive;
+  for (int i = 0; i < 100; ++i) {
+    if (i < 30 || i >= 70) {
+      drive.scan(i < 30 ? 0.1 * i : 0.1 * (i - 41));  // the robot waits meanwhile
+      continue;
+    }
+    Scan blind;
+    blind.stamp = time_at_s(2.9 + 0.0001 * (i - 29));
+    for (int k = 0; k < 400; ++k) blind.beams.push_back({0.01F * static_cast<float>(k), INFINITY, 0});
+    drive.slam.add(blind);
+  }
+  drive.worst(true);
+  EXPECT_EQ(drive.slam.counters()["slam.times_lost"], 0U);
+  EXPECT_LT(drive.worst_m, 0.05);
+}
+
+TEST(Slam, DropsOdometryThatIsNonsense) {
+  Drive drive;
+  drive.lidar.turn_s = 0;
+  for (int i = 0; i < 40; ++i) {
+    drive.odometry(0.1 * i, i == 20 ? Pose2{1e8, 0, 0} : i == 25 ? Pose2{NAN, 0, 0} : Pose2{5, 5, 1});
+    drive.scan(0.1 * i);
+  }
+  drive.worst(true);
+  EXPECT_EQ(drive.slam.counters()["odometry.nonsense"], 2U);
+  EXPECT_LT(drive.worst_m, 0.05);
+}
+
+TEST(Slam, OutlivesALeapInTimeAndPlaceTogether) {
+  Drive drive;
+  drive.lidar.turn_s = 0;
+  for (int i = 0; i < 20; ++i) {
+    const double t = i < 10 ? 0.1 * i : 1.7e9 + 0.1 * i;
+    drive.slam.add(OdometrySample{time_at_s(t), Pose2{i < 10 ? 0.0 : 3e6, 0, 0}});
+    Scan scan = look(drive.world, time_at_s(0.1 * i), Drive::world_T_robot, drive.lidar, drive.random);
+    scan.stamp = time_at_s(t);
+    drive.slam.add(scan);
+  }
+  int seen = 0;
+  while (const auto r = drive.slam.next(true)) {
+    EXPECT_LT(r->map_T_robot.translation().norm(), 100.0);
+    ++seen;
+  }
+  EXPECT_EQ(seen, 20);
+}
+
+TEST(Slam, ClosesLoopsWhenAsked) {
+  SlamConfig config;
+  config.close_loops = true;
+  config.scans_per_local_map = 20;
+  Drive drive(config);
+  for (int i = 0; i < 700; ++i) {  // once round, and a little more
+    drive.scan(0.1 * i);
+    drive.worst();
+  }
+  drive.worst(true);
+  drive.slam.finish();
+  EXPECT_GT(drive.slam.back_end().closures(), 3U);
+  EXPECT_LT(drive.worst_m, 0.05);
+  const auto trajectory = drive.slam.trajectory();
+  ASSERT_EQ(trajectory.size(), 700U);
+  const Pose2 map_T_world =
+      trajectory.front().map_T_robot * Drive::world_T_robot(trajectory.front().stamp).inverse();
+  double worst = 0;
+  for (const StampedFix& f : trajectory) {
+    worst = std::max(
+        worst,
+        (f.map_T_robot.translation() - (map_T_world * Drive::world_T_robot(f.stamp)).translation()).norm());
+  }
+  EXPECT_LT(worst, 0.03);
+  const GridSnapshot map = drive.slam.global_map().snapshot();
+  const auto state_at = [&](double x, double y) {
+    return map.state(cell_at(map_T_world * Vector2(x, y), map.cell_size_m()));
+  };
+  EXPECT_EQ(state_at(2.5, 2.5), CellState::kFree);
+  EXPECT_EQ(state_at(1.45, 4.0), CellState::kUnknown) << "the inside of the cupboard";
+  int wall = 0;
+  for (double y = 0.3; y < 1.9; y += 0.02) {
+    int across = 0;
+    for (double x = 4.4; x <= 4.6; x += 0.02) across += state_at(x, y) == CellState::kOccupied ? 1 : 0;
+    wall += across >= 1 && across <= 3 ? 1 : 0;
+  }
+  EXPECT_GT(wall, 65) << "of 80 places, the wall between the rooms is there and thin";
+}
+
 TEST(Slam, SkipsScansTakenInAFastTurn) {
   SlamConfig config;
   config.skip_yaw_rate_radps = 2.0;
@@ -323,7 +424,7 @@ TEST(Slam, TellsItsStages) {
       },
       {}, random));
   ASSERT_TRUE(slam.next(true));
-  EXPECT_EQ(names.names, (std::vector<std::string>{"passes", "match", "insert", ""}));
+  EXPECT_EQ(names.names, (std::vector<std::string>{"passes", "match", "insert", "draw", ""}));
 }
 
 }  // namespace
