@@ -8,10 +8,12 @@ namespace dynslam {
 namespace {
 
 std::uint64_t word_in_state(const Chunk& chunk, int row, CellState state) {
-  std::uint64_t word = 0;
+  std::uint8_t is_so[kChunkSide];
   for (int i = 0; i < kChunkSide; ++i) {
-    word |= std::uint64_t{cell_state(chunk.hit[row][i], chunk.miss[row][i]) == state} << i;
+    is_so[i] = cell_state(chunk.hit[row][i], chunk.miss[row][i]) == state ? 1 : 0;
   }
+  std::uint64_t word = 0;
+  for (int i = 0; i < kChunkSide; ++i) word |= std::uint64_t{is_so[i]} << i;
   return word;
 }
 

@@ -32,7 +32,7 @@ bool is_surface_between(const RayEnd& a, const RayEnd& b, double max_wedge_rad, 
   if (wedge > max_wedge_rad) return false;
   const float step = std::abs(a.range_m - b.range_m);
   const float arc = std::min(a.range_m, b.range_m) * wedge;
-  const float length = std::hypot(step, arc);
+  const float length = std::sqrt(step * step + arc * arc);
   return length > 1.5F * static_cast<float>(cell_size_m) && length < kLongest_m && step <= 0.03F + 3.0F * arc;
 }
 
@@ -151,12 +151,18 @@ void FreeSpace::walk_lone_ray(Corner end) {
 }
 
 /// Notes a hit cell once, and takes it and its ring out of the misses: rays that graze a wall would eat it.
+/// The bitmap's margin holds the ring.
 void FreeSpace::mark_hit(CellIndex c) {
   if (hit_bits_.test(c)) return;
   hit_bits_.set(c);
   footprint_.hits.push_back(c);
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) footprint_.misses.clear({c.x + dx, c.y + dy});
+  CellBitmap& misses = footprint_.misses;
+  const int column = c.x - misses.first().x, bit = column & kChunkMask;
+  for (int r = c.y - misses.first().y - 1; r <= c.y - misses.first().y + 1; ++r) {
+    std::uint64_t* word = misses.row(r) + (column >> kChunkBits);
+    *word &= ~(bit > 0 ? std::uint64_t{7} << (bit - 1) : std::uint64_t{3});
+    if (bit == 0) word[-1] &= ~(std::uint64_t{1} << kChunkMask);
+    if (bit == kChunkMask) word[1] &= ~std::uint64_t{1};
   }
 }
 
