@@ -180,7 +180,7 @@ void PyramidSearch::take(const Strip& leaf) {
   }
 }
 
-void PyramidSearch::search(std::vector<Strip> strips) {
+void PyramidSearch::search(const std::vector<Strip>& strips) {
   std::vector<std::pair<std::uint32_t, const Strip*>> order;
   order.reserve(strips.size());
   for (const Strip& s : strips) {

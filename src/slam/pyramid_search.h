@@ -89,7 +89,7 @@ class PyramidSearch {
   std::vector<Strip> top_strips();
   void descend(const Strip& strip);
   void take(const Strip& leaf);
-  void search(std::vector<Strip> strips);
+  void search(const std::vector<Strip>& strips);
   std::uint32_t sum_with_evidence(double evidence) const;
 
   const MaxPyramid& target_;
