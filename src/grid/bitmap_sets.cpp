@@ -42,6 +42,13 @@ CellBitmap widened(const CellBitmap& cells) {
   return out;
 }
 
+CellBitmap complement(const CellBitmap& cells) {
+  CellBitmap out;
+  out.reset(cells.box());
+  change_words(out, cells, [](std::uint64_t& a, std::uint64_t b) { a = ~b; });
+  return out;
+}
+
 }  // namespace
 
 void add_all(CellBitmap& cells, const CellBitmap& others) {
@@ -65,6 +72,10 @@ CellBitmap grown_all_round(const CellBitmap& cells, int times) {
     out = grown(wide, wide);
   }
   return out;
+}
+
+CellBitmap shrunk_all_round(const CellBitmap& cells, int times) {
+  return complement(grown_all_round(complement(cells), times));
 }
 
 }  // namespace dynslam

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -22,6 +23,9 @@ struct Chunk {
   std::uint64_t version = 0;  ///< grows with each epoch in which the chunk was written
   std::uint64_t epoch = 0;    ///< of the grid, when this copy was made
 };
+
+/// A set of cells of one chunk, a word a row.
+using CellTile = std::array<std::uint64_t, kChunkSide>;
 
 /// Which chunk: covers cells [64 x, 64 x + 64) by [64 y, 64 y + 64).
 struct ChunkIndex {

@@ -87,41 +87,41 @@ Chunk* ChunkedGrid::writable(ChunkIndex index) {
   return entry->get();
 }
 
-void ChunkedGrid::add_hit(CellIndex c) {
-  Chunk* chunk = writable(chunk_of(c));
-  if (!chunk) {
+template <class Change>
+void ChunkedGrid::change(CellIndex c, Change&& of) {
+  if (Chunk* chunk = writable(chunk_of(c))) {
+    of(chunk->hit[c.y & kChunkMask][c.x & kChunkMask], chunk->miss[c.y & kChunkMask][c.x & kChunkMask]);
+  } else {
     ++cells_refused_;
-    return;
   }
-  std::uint8_t& hit = chunk->hit[c.y & kChunkMask][c.x & kChunkMask];
-  std::uint8_t& miss = chunk->miss[c.y & kChunkMask][c.x & kChunkMask];
-  hit = raised(hit, rule_.gain);
-  miss = lowered(miss, rule_.loss);
+}
+
+void ChunkedGrid::add_hit(CellIndex c) {
+  change(c, [this](std::uint8_t& hit, std::uint8_t& miss) {
+    hit = raised(hit, rule_.gain);
+    miss = lowered(miss, rule_.loss);
+  });
 }
 
 void ChunkedGrid::add_miss(CellIndex c) {
-  Chunk* chunk = writable(chunk_of(c));
-  if (!chunk) {
-    ++cells_refused_;
-    return;
-  }
-  std::uint8_t& hit = chunk->hit[c.y & kChunkMask][c.x & kChunkMask];
-  std::uint8_t& miss = chunk->miss[c.y & kChunkMask][c.x & kChunkMask];
-  hit = lowered(hit, rule_.loss);
-  miss = raised(miss, rule_.gain);
+  change(c, [this](std::uint8_t& hit, std::uint8_t& miss) {
+    hit = lowered(hit, rule_.loss);
+    miss = raised(miss, rule_.gain);
+  });
 }
 
-void ChunkedGrid::set(CellIndex c, CellState state) {
-  const std::uint8_t new_hit = state == CellState::kOccupied ? 255 : 0;
-  const std::uint8_t new_miss = state == CellState::kFree ? 255 : 0;
-  if (hit(c) == new_hit && miss(c) == new_miss) return;
-  Chunk* chunk = writable(chunk_of(c));
-  if (!chunk) {
-    ++cells_refused_;
-    return;
+void ChunkedGrid::show(ChunkIndex index, const CellTile& free, const CellTile& occupied) {
+  Chunk* chunk = writable(index);
+  for (std::size_t r = 0; r < kChunkSide; ++r) {
+    if (!chunk) {
+      cells_refused_ += static_cast<std::uint64_t>(std::popcount(free[r] | occupied[r]));
+      continue;
+    }
+    for (std::size_t i = 0; i < 8; ++i) {
+      std::memcpy(chunk->hit[r] + 8 * i, &kSpread[(occupied[r] >> (8 * i)) & 0xFF], 8);
+      std::memcpy(chunk->miss[r] + 8 * i, &kSpread[(free[r] >> (8 * i)) & 0xFF], 8);
+    }
   }
-  chunk->hit[c.y & kChunkMask][c.x & kChunkMask] = new_hit;
-  chunk->miss[c.y & kChunkMask][c.x & kChunkMask] = new_miss;
 }
 
 void ChunkedGrid::apply(const ScanFootprint& footprint) {

@@ -68,9 +68,8 @@ class ChunkedGrid {
 
   void add_hit(CellIndex c);
   void add_miss(CellIndex c);
-  /// Makes a cell as sure as can be of a state; kUnknown forgets it. Costs nothing where the cell is so
-  /// already.
-  void set(CellIndex c, CellState state);
+  /// Makes the cells of a chunk as sure as can be of what they are, and forgets those in neither set.
+  void show(ChunkIndex index, const CellTile& free, const CellTile& occupied);
   /// All of a scan at once. Same result as add_hit and add_miss on each of its cells.
   void apply(const ScanFootprint& footprint);
 
@@ -87,6 +86,8 @@ class ChunkedGrid {
 
  private:
   Chunk* writable(ChunkIndex index);
+  template <class Change>
+  void change(CellIndex c, Change&& of);
   void apply_misses(const CellBitmap& misses, ChunkIndex index);
 
   double cell_size_m_;

@@ -90,4 +90,15 @@ CellBitmap flood_fill(const CellBitmap& through, std::span<const CellIndex> seed
   return reached;
 }
 
+CellBitmap flood_fill(const CellBitmap& through, const CellBitmap& seeds) {
+  CellBitmap reached;
+  reached.reset(through.box());
+  Filler filler(through, reached);
+  for (int row = 0; row < seeds.rows(); ++row) {
+    for (int word = 0; word < seeds.words_per_row(); ++word) filler.offer(row, word, seeds.row(row)[word]);
+  }
+  filler.run();
+  return reached;
+}
+
 }  // namespace dynslam

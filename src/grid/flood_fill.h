@@ -15,5 +15,7 @@ CellBitmap cells_in_state(const GridSnapshot& map, CellState state);
 /// `through`. Seeds that are not in `through` are passed over. Linear in the cells reached, a span of a row
 /// at a time.
 CellBitmap flood_fill(const CellBitmap& through, std::span<const CellIndex> seeds);
+/// The same; `seeds` covers the same box.
+CellBitmap flood_fill(const CellBitmap& through, const CellBitmap& seeds);
 
 }  // namespace dynslam

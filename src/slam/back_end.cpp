@@ -35,15 +35,36 @@ constexpr double kClosureBend_rad = 0.002;
 
 constexpr double kWindowSigmas = 3.0;
 
+constexpr std::size_t kBlocksATurn = 400;
+
 Eigen::Matrix3d spread(double xy_m, double yaw_rad) {
   return Eigen::Vector3d(xy_m * xy_m, xy_m * xy_m, yaw_rad * yaw_rad).asDiagonal();
 }
 
-/// A covariance given along the axes of the drawn frame, turned to those of a pose in it.
-Eigen::Matrix3d turned_back(const Eigen::Matrix3d& covariance, double yaw) {
-  Eigen::Matrix3d turn_back = Eigen::Matrix3d::Identity();
-  turn_back.topLeftCorner<2, 2>() << std::cos(yaw), std::sin(yaw), -std::sin(yaw), std::cos(yaw);
-  return turn_back * covariance * turn_back.transpose();
+/// A covariance given along the axes of a pose's yaw, along those of the frame around it.
+Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() << std::cos(yaw), -std::sin(yaw), std::sin(yaw), std::cos(yaw);
+  return turn * covariance * turn.transpose();
+}
+
+/// Whether a map knows anything within two cells: a wall is drawn thin, and rarely twice in the same place.
+bool is_known_around(const FinishedMap& map, CellIndex cell) {
+  std::uint64_t any = 0;
+  for (int dy = -2; dy <= 2; dy += 2) {
+    const CellIndex first{cell.x - 2, cell.y + dy};
+    any |= map.free.word(first) | map.occupied.word(first);
+  }
+  return (any & 0x1F) != 0;
+}
+
+/// Share of points, given in a frame at `origin_T_points`, of which a map knows something.
+double share_known(const FinishedMap& map, const Pose2& origin_T_points, const std::vector<Vector2>& points) {
+  const Pose2 drawn_T_points = map.drawn_T_origin * origin_T_points;
+  int known = 0;
+  for (const Vector2& p : points)
+    known += is_known_around(map, cell_at(drawn_T_points * p, map.cell_size_m)) ? 1 : 0;
+  return static_cast<double>(known) / static_cast<double>(points.size());
 }
 
 SearchWindow window_for(const Eigen::Matrix3d& covariance) {
@@ -57,7 +78,7 @@ SearchWindow window_for(const Eigen::Matrix3d& covariance) {
 }  // namespace
 
 BackEnd::BackEnd(const SlamConfig& config)
-    : config_(config), global_map_(config.cell_size_m, static_cast<std::size_t>(config.max_chunks)) {}
+    : config_(config), global_map_(config.cell_size_m) {}
 
 void BackEnd::finish(const LocalMap& map) {
   auto finished = std::make_shared<const FinishedMap>(clean_up(map, map.id, map.ended));
@@ -67,9 +88,9 @@ void BackEnd::finish(const LocalMap& map) {
   for (const CloudPoint& p : finished->cloud)
     entry.reach_m = std::max<double>(entry.reach_m, std::hypot(p.x_m, p.y_m));
   const bool closed = search_loops(*finished);
-  entry.pyramid = std::make_unique<const MaxPyramid>(*finished);
   global_map_.place(finished, graph_.pose(map.id));
   if (closed) settle();
+  global_map_.redraw(kBlocksATurn);
   retire_unneeded(map.id);
 }
 
@@ -85,7 +106,7 @@ void BackEnd::add_node(const LocalMap& map) {
   graph_.add_node(map.id, map_T_drawn_now * map.map_T_origin);
   const Eigen::Matrix3d covariance =
       map.is_tied ? Eigen::Matrix3d(kMatchInflation *
-                                        turned_back(map.origin_covariance, last.map->drawn_T_origin.yaw) +
+                                        turned(map.origin_covariance, -last.map->drawn_T_origin.yaw) +
                                     spread(kBend_m, kBend_rad))
                   : spread(kLost_m, kLost_rad);
   graph_.add_odometry_edge(before, map.id, before_T_this, covariance);
@@ -106,15 +127,12 @@ std::vector<BackEnd::Candidate> BackEnd::candidates(const FinishedMap& source) c
   const double reach_m = maps_.at(source.id).reach_m;
   const auto relatives = graph_.relatives_of(source.id);
   for (const auto& [id, other] : maps_) {
-    if (id + kNeighbours > source.id || !other.pyramid || !relatives.contains(id)) continue;
+    if (id + kNeighbours > source.id || !relatives.contains(id)) continue;
     const Pose2 guess = graph_.pose(id).inverse() * graph_.pose(source.id);
     const RelativePose measured = inverse(relatives.at(id));
     const double unsure_m = std::sqrt(measured.covariance(0, 0) + measured.covariance(1, 1));
     if (guess.translation().norm() > reach_m + other.reach_m + unsure_m) continue;
-    int known = 0;
-    for (const Vector2& p : points)
-      known += other.pyramid->is_known(other.pyramid->cell_of(guess * p)) ? 1 : 0;
-    const double share = static_cast<double>(known) / static_cast<double>(points.size());
+    const double share = share_known(*other.map, guess, points);
     if (share < kLeastShare && unsure_m < 1.0) continue;
     found.push_back({id, {guess, measured.covariance}, std::max(share, 0.1) * (0.01 + unsure_m)});
   }
@@ -127,8 +145,10 @@ std::vector<BackEnd::Candidate> BackEnd::candidates(const FinishedMap& source) c
 
 bool BackEnd::try_loop(const FinishedMap& source, const Candidate& candidate) {
   const Finished& target = maps_.at(candidate.id);
-  const LoopMatch match = find_loop(*target.pyramid, *target.map, source, candidate.target_T_source.pose,
-                                    window_for(candidate.target_T_source.covariance));
+  const SearchWindow window =
+      window_for(turned(candidate.target_T_source.covariance, target.map->drawn_T_origin.yaw));
+  const LoopMatch match =
+      find_loop(MaxPyramid(*target.map), *target.map, source, candidate.target_T_source.pose, window);
   counters_.add("loops.searched");
   if (const auto why = refusal(match)) {
     counters_.add("loops.refused." + std::string(*why));

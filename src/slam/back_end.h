@@ -40,7 +40,6 @@ class BackEnd {
  private:
   struct Finished {
     std::shared_ptr<const FinishedMap> map;
-    std::unique_ptr<const MaxPyramid> pyramid;
     double reach_m = 0.0;  ///< of its farthest surface from its origin
   };
   /// Where a retired map went: its origin in that of one that lives, or was retired later.

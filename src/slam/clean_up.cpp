@@ -72,21 +72,23 @@ FinishedMap clean_up(const LocalMap& map, std::uint32_t id, Time ended) {
   const Sight sight = sight_of(map.grid);
   const CellBitmap reached = flood_fill(sight.seen_through, cells_of(map.robot_positions, out.cell_size_m));
   CellBitmap front = with_slopes(reached, sight.crest);
-  out.occupied = sight.crest;
-  keep_only(out.occupied, grown_all_round(front));
-  out.free = reached;
-  take_out(out.free, sight.doubtful);
-  take_out(out.free, rim_of_unseen(sight));
+  CellBitmap occupied = sight.crest;
+  keep_only(occupied, grown_all_round(front));
+  CellBitmap free = reached;
+  take_out(free, sight.doubtful);
+  take_out(free, rim_of_unseen(sight));
   // What hid the crest from view was not there: the ray had to pass it.
-  keep_only(front, grown_all_round(out.occupied, kSlopeWidth));
-  add_all(out.free, front);
-  take_out(out.free, out.occupied);
-  out.cloud = cloud_of(sight.crests, out.occupied, map);
+  keep_only(front, grown_all_round(occupied, kSlopeWidth));
+  add_all(free, front);
+  take_out(free, occupied);
+  out.free = TiledBitmap(free);
+  out.occupied = TiledBitmap(occupied);
+  out.cloud = cloud_of(sight.crests, occupied, map);
   return out;
 }
 
-void drop_unseen(CellBitmap& free, CellBitmap& occupied, std::span<const CellIndex> seeds) {
-  free = flood_fill(free, seeds);
+void drop_gaps(CellBitmap& free, CellBitmap& occupied, int gap_cells) {
+  free = flood_fill(free, shrunk_all_round(free, gap_cells / 2));
   keep_only(occupied, grown_all_round(free));
 }
 

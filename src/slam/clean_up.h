@@ -15,10 +15,11 @@ namespace dynslam {
 /// chunks of the map.
 FinishedMap clean_up(const LocalMap& map, std::uint32_t id, Time ended);
 
-/// The flood-fill clean-up on what is already thin, for maps put together from others: of `free` stays what
-/// is connected (up, down, left, right) with one of `seeds`, and of `occupied` what touches that, corners
-/// included. So goes the older drawing of a wall behind the newer one.
+/// The same on a map put together from others, where an older drawing of a wall may lie behind the newer one
+/// with a gap between them: free space that is nowhere wider than `gap_cells` and has no way to wider parts
+/// goes, and so do the surfaces that only it touched. What was seen from afar and has no way to it, as a room
+/// behind a door that is shut now, is wider and stays.
 /// REQUIRES: both cover the same box, and no cell is in both.
-void drop_unseen(CellBitmap& free, CellBitmap& occupied, std::span<const CellIndex> seeds);
+void drop_gaps(CellBitmap& free, CellBitmap& occupied, int gap_cells);
 
 }  // namespace dynslam

@@ -6,7 +6,7 @@
 
 #include "base/pose2.h"
 #include "base/time.h"
-#include "grid/cell_bitmap.h"
+#include "grid/tiled_bitmap.h"
 
 namespace dynslam {
 
@@ -26,8 +26,8 @@ struct FinishedMap {
   double cell_size_m = 0.02;
   Pose2 drawn_T_origin;           ///< the robot's pose when the map was begun, in the frame it was drawn in
   Time begun, ended;              ///< stamps of its first and last scan
-  CellBitmap free;                ///< seen to be empty
-  CellBitmap occupied;            ///< surfaces, about one cell thick; never also free
+  TiledBitmap free;               ///< seen to be empty
+  TiledBitmap occupied;           ///< surfaces, about one cell thick; never also free
   std::vector<CloudPoint> cloud;  ///< the occupied cells as points
 };
 

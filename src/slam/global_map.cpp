@@ -2,195 +2,252 @@
 #include "slam/global_map.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
+
+#include "grid/bitmap_sets.h"
+#include "slam/clean_up.h"
+#include "slam/witness.h"
 
 namespace dynslam {
 namespace {
 
-constexpr double kTile_m = 0.25;
-constexpr int kWall = 2;  ///< cells: an older surface this near to a newer one is the same
+constexpr double kBlock_m = 0.5;
+/// A map is named where it shows at least this share of a block; a cell of a surface counts for so many of
+/// free space.
+constexpr double kLeastShown = 0.02;
+constexpr int kSurfaceWorth = 4;
+/// Free space narrower than this many cells, with no way to wider parts, is the gap between two drawings of
+/// one wall.
+constexpr int kGap = 8;
 
-enum class Word : std::uint8_t { kSilent, kFree, kOccupied, kNoWall };
-
-/// A finished map where it is, ready to be asked cell by cell.
-struct Witness {
-  const FinishedMap* map;
-  const CellBitmap* near_surface;
-  double c, s, x, y;  ///< from map cells to cells the map was drawn in
-
-  Witness(const FinishedMap& m, const CellBitmap& near, const Pose2& map_T_origin)
-      : map(&m), near_surface(&near) {
-    const Pose2 drawn_T_map = m.drawn_T_origin * map_T_origin.inverse();
-    c = std::cos(drawn_T_map.yaw), s = std::sin(drawn_T_map.yaw);
-    x = drawn_T_map.x / m.cell_size_m, y = drawn_T_map.y / m.cell_size_m;
-  }
-
-  CellIndex cell(double map_x, double map_y) const {
-    return {static_cast<std::int32_t>(std::floor(x + c * map_x - s * map_y)),
-            static_cast<std::int32_t>(std::floor(y + s * map_x + c * map_y))};
-  }
-
-  /// What the map says of the cell with this centre (in cells). A line one cell thick falls between the
-  /// centres of a turned grid, so surfaces are looked for at four places in the cell.
-  Word say(double centre_x, double centre_y) const {
-    for (const auto& [dx, dy] : {std::pair{-0.25, -0.25}, {0.25, -0.25}, {-0.25, 0.25}, {0.25, 0.25}}) {
-      if (map->occupied.test(cell(centre_x + dx, centre_y + dy))) return Word::kOccupied;
-    }
-    const CellIndex middle = cell(centre_x, centre_y);
-    if (map->free.test(middle)) return Word::kFree;
-    return near_surface->test(middle) ? Word::kNoWall : Word::kSilent;
-  }
-};
-
-CellState hear(const std::vector<Witness>& newest_first, double x, double y) {
-  bool no_wall = false;
-  for (const Witness& w : newest_first) {
-    const Word word = w.say(x, y);
-    if (word == Word::kFree) return CellState::kFree;
-    if (word == Word::kOccupied && !no_wall) return CellState::kOccupied;
-    no_wall = no_wall || word != Word::kSilent;
-  }
-  return CellState::kUnknown;
+/// The power of two nearest to half a metre, from 8 to 32 cells.
+int block_bits_for(double cell_size_m) {
+  const double bits = std::log2(kBlock_m / cell_size_m);
+  return static_cast<int>(std::clamp(std::lround(bits), 3L, 5L));
 }
 
-/// Cells of a row or column of blocks: those whose centres lie in it.
-std::pair<std::int32_t, std::int32_t> cells_of_block(std::int32_t block, double cell_size_m) {
-  const auto first = [&](std::int32_t b) {
-    return static_cast<std::int32_t>(std::ceil(b * GlobalMap::kBlock_m / cell_size_m - 0.5));
-  };
-  return {first(block), first(block + 1)};
+/// Whether any cell of a square of a tile is set.
+bool any_in(const CellTile& tile, int x, int y, int side) {
+  const std::uint64_t columns =
+      side == kChunkSide ? ~std::uint64_t{0} : ((std::uint64_t{1} << side) - 1) << x;
+  std::uint64_t any = 0;
+  for (int r = y; r < y + side; ++r) any |= tile[static_cast<std::size_t>(r)] & columns;
+  return any != 0;
+}
+
+/// Writes the rows of a block into the chunk around it.
+void put(CellTile& tile, CellIndex first, const BlockView::Rows& rows, int side) {
+  const int shift = first.x & kChunkMask, low = first.y & kChunkMask;
+  const std::uint64_t columns = ((std::uint64_t{1} << side) - 1) << shift;
+  for (int y = 0; y < side; ++y) {
+    std::uint64_t& word = tile[static_cast<std::size_t>(low + y)];
+    word = (word & ~columns) | std::uint64_t{rows[static_cast<std::size_t>(y)]} << shift;
+  }
+}
+
+void paste(const CellTile& tile, ChunkIndex chunk, CellBitmap& cells) {
+  const int row = (chunk.y - cells.box().min.y) * kChunkSide, word = chunk.x - cells.box().min.x;
+  for (int r = 0; r < kChunkSide; ++r) cells.row(row + r)[word] = tile[static_cast<std::size_t>(r)];
+}
+
+CellTile cut(const CellBitmap& cells, ChunkIndex chunk) {
+  CellTile tile;
+  const int row = (chunk.y - cells.box().min.y) * kChunkSide, word = chunk.x - cells.box().min.x;
+  for (int r = 0; r < kChunkSide; ++r) tile[static_cast<std::size_t>(r)] = cells.row(row + r)[word];
+  return tile;
 }
 
 }  // namespace
 
+GlobalMap::GlobalMap(double cell_size_m)
+    : cell_size_m_(cell_size_m), block_bits_(block_bits_for(cell_size_m)) {}
+
 void GlobalMap::place(std::shared_ptr<const FinishedMap> map, const Pose2& map_T_origin) {
   const std::uint32_t id = map->id;
-  auto near = std::make_shared<const CellBitmap>(map->occupied.grown(kWall));
-  std::vector<Tile> tiles = tiles_of(*map);
-  Placed& placed = maps_[id] = {std::move(map), std::move(near), std::move(tiles), map_T_origin, {}};
-  cover(id, placed);
+  Placed& placed = maps_[id] = {std::move(map), map_T_origin, {}};
+  name_all(id, placed);
 }
 
 void GlobalMap::move(const std::map<std::uint32_t, Pose2>& map_T_origins) {
-  const double least_m = 0.1 * grid_.cell_size_m();
-  bool any = false;
+  const double least_m = 0.25 * cell_size_m_;
   for (auto& [id, placed] : maps_) {
     const auto to = map_T_origins.find(id);
     if (to == map_T_origins.end()) continue;
     const Pose2 step = placed.map_T_origin.inverse() * to->second;
     // A turn moves what is five metres away the most that matters.
-    if (step.translation().norm() + 5.0 * std::abs(step.yaw) < least_m) continue;
-    uncover(placed);
-    placed.map_T_origin = to->second;
-    any = true;
+    if (step.translation().norm() + 5.0 * std::abs(step.yaw) >= least_m) move_to(id, placed, to->second);
   }
-  if (any) rebuild_history();
+}
+
+/// Names a map in the blocks where those lie now that named it before.
+void GlobalMap::move_to(std::uint32_t id, Placed& placed, const Pose2& map_T_origin) {
+  const Pose2 after_T_before = map_T_origin * placed.map_T_origin.inverse();
+  const std::set<CellIndex> before = std::exchange(placed.blocks, {});
+  placed.map_T_origin = map_T_origin;
+  const double half = 0.5 * block_cells(),
+               reach = half * (std::abs(std::cos(after_T_before.yaw)) + std::abs(std::sin(after_T_before.yaw)));
+  for (const CellIndex b : before) {
+    const Vector2 middle = cell_size_m_ * Vector2(b.x * 2 * half + half, b.y * 2 * half + half);
+    name_under_square(after_T_before * middle / cell_size_m_, reach, id, placed);
+  }
+  for (const CellIndex b : before) {
+    if (placed.blocks.contains(b)) continue;
+    unname(b, id);
+  }
 }
 
 void GlobalMap::remove(std::uint32_t id) {
   const auto it = maps_.find(id);
   if (it == maps_.end()) return;
-  uncover(it->second);
+  for (const CellIndex b : it->second.blocks) unname(b, id);
   maps_.erase(it);
-  rebuild_history();
 }
 
-std::vector<GlobalMap::Tile> GlobalMap::tiles_of(const FinishedMap& map) {
-  const int side = std::max(1, static_cast<int>(std::lround(kTile_m / map.cell_size_m)));
-  const CellIndex first = map.free.first();
-  const int columns = (map.free.words_per_row() * kChunkSide + side - 1) / side;
-  std::vector<int> known(static_cast<std::size_t>(columns) *
-                         static_cast<std::size_t>((map.free.rows() + side - 1) / side));
-  for (int y = 0; y < map.free.rows(); ++y) {
-    for (int w = 0; w < map.free.words_per_row(); ++w) {
-      for (std::uint64_t bits = map.free.row(y)[w] | map.occupied.row(y)[w]; bits != 0; bits &= bits - 1) {
-        const int x = w * kChunkSide + std::countr_zero(bits);
-        ++known[static_cast<std::size_t>(y / side * columns + x / side)];
+void GlobalMap::touch(CellIndex index, Block& block) {
+  if (std::exchange(block.dirty, true)) return;
+  dirty_.push_back(index);
+}
+
+void GlobalMap::name(CellIndex index, std::uint32_t id, Placed& placed) {
+  if (!placed.blocks.insert(index).second) return;
+  Block& block = blocks_[index];
+  const auto at = std::lower_bound(block.ids.begin(), block.ids.end(), id, std::greater<>());
+  if (at == block.ids.end() || *at != id) block.ids.insert(at, id);
+  touch(index, block);
+}
+
+/// The block's side of taking a name out.
+void GlobalMap::unname(CellIndex index, std::uint32_t id) {
+  Block& block = blocks_.at(index);
+  std::erase(block.ids, id);
+  touch(index, block);
+}
+
+/// Names a map in all blocks that a square reaches into.
+void GlobalMap::name_under_square(const Vector2& centre_cells, double half_width_cells, std::uint32_t id,
+                                  Placed& placed) {
+  constexpr double kHair = 0.01;  // of a block: a square that fits a block is in no other
+  const double reach = half_width_cells / block_cells() - kHair;
+  const Vector2 centre = centre_cells / block_cells();
+  const CellIndex low = cell_at(centre - Vector2(reach, reach), 1.0),
+                  high = cell_at(centre + Vector2(reach, reach), 1.0);
+  for (std::int32_t y = low.y; y <= high.y; ++y) {
+    for (std::int32_t x = low.x; x <= high.x; ++x) name({x, y}, id, placed);
+  }
+}
+
+/// Names a map wherever it knows anything.
+void GlobalMap::name_all(std::uint32_t id, Placed& placed) {
+  const FinishedMap& map = *placed.map;
+  const Pose2 map_T_drawn = placed.map_T_origin * map.drawn_T_origin.inverse();
+  const int side = block_cells();
+  const double reach =
+      0.5 * side * (std::abs(std::cos(map_T_drawn.yaw)) + std::abs(std::sin(map_T_drawn.yaw)));
+  ChunkBox all = map.free.box();
+  if (!map.occupied.empty()) {
+    all.include(map.occupied.box().min);
+    all.include(map.occupied.box().max);
+  }
+  for (std::int32_t cy = all.min.y; cy <= all.max.y; ++cy) {
+    for (std::int32_t cx = all.min.x; cx <= all.max.x; ++cx) {
+      const CellTile &free = map.free.tile({cx, cy}), &occupied = map.occupied.tile({cx, cy});
+      for (int y = 0; y < kChunkSide; y += side) {
+        for (int x = 0; x < kChunkSide; x += side) {
+          if (!any_in(free, x, y, side) && !any_in(occupied, x, y, side)) continue;
+          const Vector2 middle(cx * kChunkSide + x + 0.5 * side, cy * kChunkSide + y + 0.5 * side);
+          name_under_square(map_T_drawn * Vector2(middle * cell_size_m_) / cell_size_m_, reach, id, placed);
+        }
       }
-    }
-  }
-  std::vector<Tile> tiles;
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    if (known[i] == 0) continue;
-    const double x = (static_cast<double>(i % static_cast<std::size_t>(columns)) + 0.5) * side;
-    const double y = (static_cast<double>(i / static_cast<std::size_t>(columns)) + 0.5) * side;
-    tiles.push_back({Vector2((first.x + x) * map.cell_size_m, (first.y + y) * map.cell_size_m), known[i]});
-  }
-  return tiles;
-}
-
-/// Adds up how much of each block a map knows where it is now. A tile counts for the block that its centre
-/// lies in; the blocks that its corners lie in have to be drawn from it too.
-void GlobalMap::cover(std::uint32_t id, Placed& placed) {
-  constexpr double kAtAll = 1e-3;
-  const double cell_share = std::pow(placed.map->cell_size_m / kBlock_m, 2);
-  const Pose2 map_T_drawn = placed.map_T_origin * placed.map->drawn_T_origin.inverse();
-  const double half = 0.75 * kTile_m;  // to a corner, and some for the turn
-  for (const Tile& tile : placed.tiles) {
-    const Vector2 centre = map_T_drawn * tile.centre_drawn;
-    placed.shares[cell_at(centre, kBlock_m)] += tile.known * cell_share;
-    for (const auto& [dx, dy] : {std::pair{-half, -half}, {half, -half}, {-half, half}, {half, half}}) {
-      placed.shares[cell_at(centre + Vector2(dx, dy), kBlock_m)] += kAtAll;
-    }
-  }
-  for (const auto& [block, share] : placed.shares) {
-    history_.cover(block, id, share);
-    dirty_.insert(block);
-  }
-}
-
-void GlobalMap::uncover(Placed& placed) {
-  for (const auto& [block, share] : placed.shares) dirty_.insert(block);
-  placed.shares.clear();
-}
-
-void GlobalMap::rebuild_history() {
-  history_.clear();
-  for (auto& [id, placed] : maps_) {
-    if (placed.shares.empty()) {
-      cover(id, placed);
-    } else {
-      for (const auto& [block, share] : placed.shares) history_.cover(block, id, share);
     }
   }
 }
 
 std::size_t GlobalMap::redraw(std::size_t most_blocks) {
   for (; most_blocks > 0 && !dirty_.empty(); --most_blocks) {
-    draw(*dirty_.begin());
-    dirty_.erase(dirty_.begin());
+    const auto it = blocks_.find(dirty_.front());
+    dirty_.pop_front();
+    it->second.dirty = false;
+    draw(it->first, it->second);
+    if (it->second.ids.empty()) blocks_.erase(it);
   }
   return dirty_.size();
 }
 
-void GlobalMap::draw(CellIndex block) {
-  std::vector<Witness> newest_first;
-  for (const std::uint32_t id : history_.maps_at(block)) {
-    const auto it = maps_.find(id);
-    if (it != maps_.end())
-      newest_first.emplace_back(*it->second.map, *it->second.near_surface, it->second.map_T_origin);
+/// Hears the maps that a block names, newest first. Those that add too little are not heard, and their names
+/// taken out.
+void GlobalMap::draw(CellIndex index, Block& block) {
+  const int side = block_cells();
+  BlockView view({index.x * side, index.y * side}, side);
+  const double least = kLeastShown * side * side;
+  std::erase_if(block.ids, [&](std::uint32_t id) {
+    Placed& placed = maps_.at(id);
+    BlockView with_it = view;
+    Testimony said;
+    if (!view.is_decided()) said = hear(*placed.map, placed.map_T_origin, with_it);
+    const bool shows = said.free + kSurfaceWorth * said.occupied >= least;
+    if (shows) {
+      view = with_it;
+    } else {
+      placed.blocks.erase(index);
+    }
+    return !shows;
+  });
+  const ChunkIndex chunk = chunk_of(view.first);
+  DrawnChunk& drawn = pictures_[chunk].drawn;
+  drawn.index = chunk;
+  put(drawn.free, view.first, view.free, side);
+  put(drawn.occupied, view.first, view.occupied, side);
+}
+
+ChunkBox GlobalMap::box() const {
+  ChunkBox box;
+  for (const auto& [chunk, picture] : pictures_) box.include(chunk);
+  return box;
+}
+
+std::vector<DrawnChunk> GlobalMap::publish() {
+  CellBitmap free, occupied;
+  free.reset(box());
+  occupied.reset(box());
+  for (const auto& [chunk, picture] : pictures_) {
+    paste(picture.drawn.free, chunk, free);
+    paste(picture.drawn.occupied, chunk, occupied);
   }
-  const auto [left, right] = cells_of_block(block.x, grid_.cell_size_m());
-  const auto [low, high] = cells_of_block(block.y, grid_.cell_size_m());
-  for (std::int32_t y = low; y < high; ++y) {
-    for (std::int32_t x = left; x < right; ++x) grid_.set({x, y}, hear(newest_first, x + 0.5, y + 0.5));
+  drop_gaps(free, occupied, kGap);
+  std::vector<DrawnChunk> changed;
+  for (auto& [chunk, picture] : pictures_) {
+    const DrawnChunk now{chunk, cut(free, chunk), cut(occupied, chunk)};
+    if (now.free == picture.shown.free && now.occupied == picture.shown.occupied) continue;
+    picture.shown = now;
+    changed.push_back(now);
   }
+  return changed;
 }
 
 std::vector<std::uint32_t> GlobalMap::retire(std::uint32_t keep) {
-  const std::set<std::uint32_t> named = history_.named();
   std::vector<std::uint32_t> retired;
-  for (auto it = maps_.begin(); it != maps_.end();) {
-    if (it->first >= keep || named.contains(it->first)) {
-      ++it;
-    } else {
+  for (auto it = maps_.begin(); it != maps_.end() && it->first < keep;) {
+    if (it->second.blocks.empty()) {
       retired.push_back(it->first);
       it = maps_.erase(it);
+    } else {
+      ++it;
     }
   }
   return retired;
+}
+
+std::optional<Time> GlobalMap::last_seen(CellIndex cell) const {
+  const auto it = blocks_.find({cell.x >> block_bits_, cell.y >> block_bits_});
+  if (it == blocks_.end() || it->second.ids.empty()) return std::nullopt;
+  return maps_.at(it->second.ids.front()).map->ended;
+}
+
+std::size_t GlobalMap::names() const {
+  std::size_t n = 0;
+  for (const auto& [index, block] : blocks_) n += block.ids.size();
+  return n;
 }
 
 }  // namespace dynslam

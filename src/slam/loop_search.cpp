@@ -47,7 +47,7 @@ std::vector<Vector2> one_a_square(const std::vector<CloudPoint>& cloud, double s
   return kept;
 }
 
-/// What the target says of the source's points at a pose; shares.
+/// What the target says of the source's points at a pose in the frame it was drawn in; shares.
 struct Judgement {
   double overlap = 0.0, score = 0.0, matched = 0.0, contradicted = 0.0;
 };
@@ -141,22 +141,22 @@ LoopMatch find_loop(const MaxPyramid& pyramid, const FinishedMap& target, const 
   match.target_T_source = guess;
   if (!is_finite(guess) || guess.translation().norm() > 1e5 || !is_sound(window)) return match;
   const std::vector<Vector2> coarse = thin_out(source.cloud, config.search_points, pyramid.cell_size_m());
-  PyramidSearch search(pyramid, coarse, guess, window, config.search);
+  PyramidSearch search(pyramid, coarse, target.drawn_T_origin * guess, window, config.search);
   const PyramidSearchResult found = search.run();
   match.nodes = found.nodes;
   match.out_of_budget = found.out_of_budget;
   if (!found.best) return match;
   match.found = true;
-  const Pose2 best = search.pose_of(*found.best);
+  const Pose2 best = search.pose_of(*found.best);  // in the frame the target was drawn in
   if (found.rival) match.runner_up = runner_up(pyramid, coarse, best, search.pose_of(*found.rival));
   const std::vector<Vector2> points = thin_out(source.cloud, config.fit_points, source.cell_size_m);
   const SurfaceFit surfaces(target.cloud, target.cell_size_m);
-  const SurfaceFit::Result fit = surfaces.fit(points, best);
+  const SurfaceFit::Result fit = surfaces.fit(points, target.drawn_T_origin.inverse() * best);
   match.target_T_source = fit.cloud_T_points;
   match.information = fit.information;
   match.residual_m = fit.residual_m;
   match.roundness = roundness_of(fit.information);
-  const Judgement judged = judge(pyramid, points, match.target_T_source);
+  const Judgement judged = judge(pyramid, points, target.drawn_T_origin * match.target_T_source);
   match.points = static_cast<int>(points.size());
   match.overlap = judged.overlap;
   match.score = judged.score;

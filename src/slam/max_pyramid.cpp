@@ -3,7 +3,6 @@
 
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace dynslam {
@@ -11,46 +10,19 @@ namespace {
 
 /// Width of the ridge that a surface becomes, in base cells: half a cell off still scores three quarters.
 constexpr double kRidgeSigma = 0.7;
-/// Samples along the side of a base cell that decide whether it is free.
-constexpr int kSamples = 2;
-
 /// Height of the ridge so many base cells off.
 double ridge(double off) { return std::exp(-off * off / (2 * kRidgeSigma * kRidgeSigma)); }
 
-bool is_finite(const CloudPoint& p) { return std::isfinite(p.x_m) && std::isfinite(p.y_m); }
-
-struct Extent {
-  Vector2 low = Vector2::Constant(std::numeric_limits<double>::infinity());
-  Vector2 high = -low;
-  void include(const Vector2& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-};
-
-/// The free cells' extent, from both ends of each row.
-void include_free(const FinishedMap& map, Extent& extent) {
-  const Pose2 origin_T_drawn = map.drawn_T_origin.inverse();
-  for (int r = 0; r < map.free.rows(); ++r) {
-    const std::uint64_t* row = map.free.row(r);
-    int left = -1, right = -1;
-    for (int w = 0; w < map.free.words_per_row(); ++w) {
-      if (row[w] == 0) continue;
-      if (left < 0) left = w * kChunkSide + std::countr_zero(row[w]);
-      right = w * kChunkSide + kChunkSide - 1 - std::countl_zero(row[w]);
-    }
-    if (left < 0) continue;
-    for (const int x : {left, right}) {
-      const CellIndex cell{map.free.first().x + x, map.free.first().y + r};
-      extent.include(origin_T_drawn * cell_centre(cell, map.cell_size_m));
-    }
-  }
+Vector2 drawn_position(const FinishedMap& map, const CloudPoint& p) {
+  return map.drawn_T_origin * Vector2(p.x_m, p.y_m);
 }
 
 }  // namespace
 
 MaxPyramid::MaxPyramid(const FinishedMap& map, const MaxPyramidConfig& config)
-    : cell_size_m_(std::max(config.least_cell_m, config.map_cells * map.cell_size_m)),
+    : map_cells_(std::max(config.least_map_cells,
+                          static_cast<int>(std::ceil(config.least_cell_m / map.cell_size_m - 1e-9)))),
+      cell_size_m_(map_cells_ * map.cell_size_m),
       unknown_worth_(config.unknown_worth),
       planes_(kLevels) {
   measure(map);
@@ -63,17 +35,18 @@ MaxPyramid::MaxPyramid(const FinishedMap& map, const MaxPyramidConfig& config)
 
 /// Makes room for all that the map knows, with all of it unknown.
 void MaxPyramid::measure(const FinishedMap& map) {
-  Extent extent;
-  for (const CloudPoint& p : map.cloud) {
-    if (is_finite(p)) extent.include({p.x_m, p.y_m});
-  }
-  include_free(map, extent);
+  const auto base = [&](std::int32_t cell) {
+    return static_cast<std::int32_t>(std::floor(static_cast<double>(cell) / map_cells_));
+  };
   int width = 0, height = 0;
-  if (extent.low.x() <= extent.high.x()) {
-    const CellIndex low = cell_at(extent.low, cell_size_m_), high = cell_at(extent.high, cell_size_m_);
-    first_ = {low.x - 1, low.y - 1};  // a surface reaches into the cells around it
-    width = high.x - low.x + 3;
-    height = high.y - low.y + 3;
+  const CellBox free = map.free.bounds(), occupied = map.occupied.bounds();
+  if (!free.empty() || !occupied.empty()) {
+    const CellBox& a = free.empty() ? occupied : free;
+    const CellBox& b = occupied.empty() ? free : occupied;
+    // A surface reaches into the cells around it.
+    first_ = {base(std::min(a.min.x, b.min.x)) - 2, base(std::min(a.min.y, b.min.y)) - 2};
+    width = base(std::max(a.max.x, b.max.x)) - first_.x + 3;
+    height = base(std::max(a.max.y, b.max.y)) - first_.y + 3;
     const ChunkBox box{{0, 0}, chunk_of({width - 1, height - 1})};
     known_.reset(box);
     clear_.reset(box);
@@ -89,25 +62,27 @@ void MaxPyramid::measure(const FinishedMap& map) {
   }
 }
 
+/// Adds the free cells of a row of the map to the base cells that they lie in.
+void MaxPyramid::count_free(const FinishedMap& map, std::int32_t map_row,
+                            std::vector<std::uint8_t>& free) const {
+  const std::int32_t left = first_.x * map_cells_, right = left + width() * map_cells_;
+  for (std::int32_t x = left; x < right; x += kChunkSide) {
+    for (std::uint64_t bits = map.free.word({x, map_row}); bits != 0; bits &= bits - 1) {
+      const auto base = static_cast<std::size_t>((x - left + std::countr_zero(bits)) / map_cells_);
+      if (base < free.size()) ++free[base];
+    }
+  }
+}
+
 /// A base cell is free when most of it is.
 void MaxPyramid::draw_free(const FinishedMap& map) {
-  constexpr int kBias = 1 << 24;  // of what is cut off below: truncation is then floor
   Plane& base = planes_[0];
-  const double scale = cell_size_m_ / map.cell_size_m;  // from here on in cells of the map
-  const double c = scale * std::cos(map.drawn_T_origin.yaw), s = scale * std::sin(map.drawn_T_origin.yaw);
-  const double x0 = map.drawn_T_origin.x / map.cell_size_m + kBias,
-               y0 = map.drawn_T_origin.y / map.cell_size_m + kBias;
+  std::vector<std::uint8_t> free(static_cast<std::size_t>(base.width));
   for (int y = 0; y < base.height; ++y) {
+    std::fill(free.begin(), free.end(), std::uint8_t{0});
+    for (int i = 0; i < map_cells_; ++i) count_free(map, (first_.y + y) * map_cells_ + i, free);
     for (int x = 0; x < base.width; ++x) {
-      int free = 0;
-      for (int k = 0; k < kSamples * kSamples; ++k) {
-        const double px = first_.x + x + (k % kSamples + 0.5) / kSamples,
-                     py = first_.y + y + (k / kSamples + 0.5) / kSamples;
-        const CellIndex drawn{static_cast<int>(x0 + c * px - s * py) - kBias,
-                              static_cast<int>(y0 + s * px + c * py) - kBias};
-        free += map.free.test(drawn) ? 1 : 0;
-      }
-      if (2 * free <= kSamples * kSamples) continue;
+      if (2 * free[static_cast<std::size_t>(x)] <= map_cells_ * map_cells_) continue;
       base.bytes[static_cast<std::size_t>(base.offset(x, y))] = 0;
       known_.set({x, y});
       clear_.set({x, y});
@@ -119,8 +94,9 @@ void MaxPyramid::draw_free(const FinishedMap& map) {
 void MaxPyramid::draw_surfaces(const FinishedMap& map) {
   Plane& base = planes_[0];
   for (const CloudPoint& p : map.cloud) {
-    if (!is_finite(p)) continue;
-    const double px = p.x_m / cell_size_m_ - first_.x, py = p.y_m / cell_size_m_ - first_.y;
+    const Vector2 at = drawn_position(map, p) / cell_size_m_;
+    const double px = at.x() - first_.x, py = at.y() - first_.y;
+    if (!(px >= 1 && py >= 1 && px < base.width - 1 && py < base.height - 1)) continue;
     const int x0 = static_cast<int>(px), y0 = static_cast<int>(py);
     known_.set({x0, y0});
     for (int i = 0; i < 3; ++i) {
@@ -140,8 +116,8 @@ void MaxPyramid::clear_around_surfaces(const FinishedMap& map, double clear_m) {
   const double reach2 = clear_m * clear_m / (cell_size_m_ * cell_size_m_);
   std::vector<std::uint8_t> done(planes_[0].bytes.size(), 0);
   for (const CloudPoint& p : map.cloud) {
-    if (!is_finite(p)) continue;
-    const CellIndex at = cell_of({p.x_m, p.y_m});
+    if (!std::isfinite(p.x_m) || !std::isfinite(p.y_m)) continue;
+    const CellIndex at = cell_of(drawn_position(map, p));
     if (std::exchange(done[static_cast<std::size_t>(planes_[0].offset(at.x, at.y))], 1) != 0) continue;
     for (int dy = -reach; dy <= reach; ++dy) {
       for (int dx = -reach; dx <= reach; ++dx) {

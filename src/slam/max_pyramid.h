@@ -12,8 +12,8 @@
 namespace dynslam {
 
 struct MaxPyramidConfig {
-  double least_cell_m = 0.04;  ///< side of a cell of the lowest level is at least this
-  double map_cells = 2.0;      ///< and this many cells of the map
+  double least_cell_m = 0.04;  ///< side of a cell of the lowest level is at least this,
+  int least_map_cells = 2;     ///< and this many cells of the map
   double clear_m = 0.1;        ///< a point in free space this far from every surface contradicts the map
   /// What a point in space that was never seen scores, of 255 for one on a surface; in free space it scores
   /// nothing. Otherwise a search would rather push two maps over each other than let one reach beyond the
@@ -25,12 +25,13 @@ struct MaxPyramidConfig {
 /// hold the maxima of more and more of them: upper bounds for whole blocks of shifts (branch and bound, Hess
 /// et al., ICRA 2016).
 ///
-/// Cells lie in the frame of the map's origin and are counted from `first()`. Cell (i, j) of level k holds
-/// the maximum of the base cells [i S, i S + 2 S - 2] in x and likewise in y, S = 2^k: whatever base cell a
-/// point lies in, the one cell (x >> k, y >> k) bounds what it scores under all shifts by 0 to S - 1, and the
-/// cells right of it bound the blocks of shifts right of that. The paper keeps every level at full
-/// resolution, which is tighter by half a block and takes a plane a level; this takes a third more than the
-/// base alone. A map of 12 x 9 m takes some 130 KB. Immutable; any thread may read it.
+/// Cells lie in the frame the map was drawn in, a few of its cells each, and are counted from the lower left
+/// one. Cell (i, j) of level k holds the maximum of the base cells [i S, i S + 2 S - 2] in x and likewise in
+/// y, S = 2^k: whatever base cell a point lies in, the one cell (x >> k, y >> k) bounds what it scores under
+/// all shifts by 0 to S - 1, and the cells right of it bound the blocks of shifts right of that. The paper
+/// keeps every level at full resolution, which is tighter by half a block and takes a plane a level; this
+/// takes a third more than the base alone. A map of 12 x 9 m takes some 130 KB. Immutable; any thread may
+/// read it.
 class MaxPyramid {
  public:
   static constexpr int kLanes = 16;  ///< cells right of a position that a load may read
@@ -53,7 +54,6 @@ class MaxPyramid {
 
   double cell_size_m() const { return cell_size_m_; }
   std::uint8_t unknown_worth() const { return unknown_worth_; }
-  CellIndex first() const { return first_; }
   int width() const { return planes_[0].width; }  ///< base cells
   int height() const { return planes_[0].height; }
 
@@ -68,9 +68,9 @@ class MaxPyramid {
   bool is_known(CellIndex base) const { return known_.test(base); }
   /// Seen to be free, and well away from every surface.
   bool is_clear(CellIndex base) const { return clear_.test(base); }
-  /// The base cell of a point, in the frame of the map's origin; the point must be within 2^30 cells.
-  CellIndex cell_of(const Vector2& point_m) const {
-    const CellIndex c = cell_at(point_m, cell_size_m_);
+  /// The base cell of a point of the frame the map was drawn in; it must be within 2^30 cells.
+  CellIndex cell_of(const Vector2& drawn_m) const {
+    const CellIndex c = cell_at(drawn_m, cell_size_m_);
     return {c.x - first_.x, c.y - first_.y};
   }
   std::size_t bytes() const;
@@ -78,13 +78,15 @@ class MaxPyramid {
  private:
   void measure(const FinishedMap& map);
   void draw_free(const FinishedMap& map);
+  void count_free(const FinishedMap& map, std::int32_t map_row, std::vector<std::uint8_t>& free) const;
   void draw_surfaces(const FinishedMap& map);
   void clear_around_surfaces(const FinishedMap& map, double clear_m);
   void stack();
 
+  int map_cells_;  ///< along the side of a base cell
   double cell_size_m_;
   std::uint8_t unknown_worth_;
-  CellIndex first_;
+  CellIndex first_;  ///< counted in base cells from the frame's origin
   std::vector<Plane> planes_;
   CellBitmap known_, clear_;
 };

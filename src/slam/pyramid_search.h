@@ -13,7 +13,7 @@
 
 namespace dynslam {
 
-/// How far from a guess the truth may lie, either way; in the frame of the target's origin.
+/// How far from a guess the truth may lie, either way; along the axes of the frame the target was drawn in.
 struct SearchWindow {
   double half_x_m = 1.0;
   double half_y_m = 1.0;
@@ -44,7 +44,7 @@ struct PyramidSearchResult {
   bool out_of_budget = false;  ///< what was found until then may not be the best
 };
 
-/// Finds the lattice pose target_T_source at which the source's points score most on the target: branch and
+/// Finds the lattice pose of the source, in the frame the target was drawn in, at which the source's points score most on the target: branch and
 /// bound over x and y for every yaw (Hess et al., ICRA 2016), 16 neighbouring blocks of x at once on every
 /// level. Then the best one clearly elsewhere. The lattice's yaw step moves the farthest point by one cell.
 /// Work is bounded by nodes, so that the same input gives the same answer on every machine. One thread.

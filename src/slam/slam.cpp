@@ -10,7 +10,7 @@ Slam::Slam(const SlamConfig& config, StageWatch* watch)
       watch_(watch),
       front_end_(config, watch),
       back_end_(config),
-      live_map_(config.cell_size_m, static_cast<std::size_t>(config.max_chunks)) {}
+      map_(config.cell_size_m, static_cast<std::size_t>(config.max_chunks)) {}
 
 std::optional<ScanResult> Slam::next(bool at_end) {
   const auto fix = front_end_.next(at_end);
@@ -49,7 +49,7 @@ void Slam::close_loops() {
 void Slam::draw_live(const FrontEndResult& fix) {
   while (front_end_.take_complete()) continue;  // nobody needs them
   enter("draw");
-  if (fix.inserted) live_map_.apply(front_end_.footprint());
+  if (fix.inserted) map_.apply(front_end_.footprint());
 }
 
 void Slam::finish() {
@@ -57,6 +57,11 @@ void Slam::finish() {
   front_end_.complete_all();
   while (const auto complete = front_end_.take_complete()) back_end_.finish(*complete);
   back_end_.global_map().redraw(std::numeric_limits<std::size_t>::max());
+  show(back_end_.global_map().publish());
+}
+
+void Slam::show(const std::vector<DrawnChunk>& chunks) {
+  for (const DrawnChunk& c : chunks) map_.show(c.index, c.free, c.occupied);
 }
 
 std::vector<StampedFix> Slam::trajectory() const {
@@ -70,9 +75,7 @@ std::vector<StampedFix> Slam::trajectory() const {
 Counters Slam::counters() const {
   Counters all = front_end_.counters();
   for (const auto& [name, n] : back_end_.counters()) all.add(name, n);
-  const std::uint64_t refused =
-      (config_.close_loops ? back_end_.global_map().grid() : live_map_).cells_refused();
-  if (refused > 0) all.add("map.cells_refused", refused);
+  if (map_.cells_refused() > 0) all.add("map.cells_refused", map_.cells_refused());
   return all;
 }
 

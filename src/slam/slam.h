@@ -48,8 +48,8 @@ class Slam {
   /// The best that is known now of where every scan was taken.
   std::vector<StampedFix> trajectory() const;
 
-  /// With loop closing: as of the last finished map. Without: every scan so far.
-  ChunkedGrid& global_map() { return config_.close_loops ? back_end_.global_map().grid() : live_map_; }
+  /// With loop closing: what finish() made. Without: every scan so far.
+  ChunkedGrid& global_map() { return map_; }
   const BackEnd& back_end() const { return back_end_; }
   std::size_t local_maps_begun() const { return front_end_.local_maps_begun(); }
   std::size_t local_maps_active() const {
@@ -71,6 +71,7 @@ class Slam {
   };
   void close_loops();
   void draw_live(const FrontEndResult& fix);
+  void show(const std::vector<DrawnChunk>& chunks);
   void enter(std::string_view stage) {
     if (watch_) watch_->enter(stage);
   }
@@ -79,7 +80,7 @@ class Slam {
   StageWatch* watch_;
   FrontEnd front_end_;
   BackEnd back_end_;
-  ChunkedGrid live_map_;  ///< without loop closing
+  ChunkedGrid map_;
   std::vector<Visit> visits_;
   std::deque<Correction> corrections_;
   Pose2 map_T_drawn_;  ///< as known to the poses
