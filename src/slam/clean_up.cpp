@@ -87,6 +87,11 @@ FinishedMap clean_up(const LocalMap& map, std::uint32_t id, Time ended) {
   return out;
 }
 
+void fill_cracks(CellBitmap& free, const CellBitmap& occupied, int crack_cells) {
+  free = shrunk_all_round(grown_all_round(free, crack_cells / 2), crack_cells / 2);
+  take_out(free, occupied);
+}
+
 void drop_gaps(CellBitmap& free, CellBitmap& occupied, int gap_cells) {
   free = flood_fill(free, shrunk_all_round(free, gap_cells / 2));
   keep_only(occupied, grown_all_round(free));

@@ -15,7 +15,11 @@ namespace dynslam {
 /// chunks of the map.
 FinishedMap clean_up(const LocalMap& map, std::uint32_t id, Time ended);
 
-/// The same on a map put together from others, where an older drawing of a wall may lie behind the newer one
+/// Takes unknown cells for free that lie between free ones, at most `crack_cells` apart.
+/// REQUIRES: both cover the same box.
+void fill_cracks(CellBitmap& free, const CellBitmap& occupied, int crack_cells);
+
+/// The flood-fill clean-up on a map put together from others, where an older drawing of a wall may lie behind the newer one
 /// with a gap between them: free space that is nowhere wider than `gap_cells` and has no way to wider parts
 /// goes, and so do the surfaces that only it touched. What was seen from afar and has no way to it, as a room
 /// behind a door that is shut now, is wider and stays.
