@@ -7,10 +7,10 @@
 #include <span>
 #include <utility>
 
-#include "base/number_text.h"
 #include "io/picture_band.h"
 #include "io/picture_layout.h"
 #include "io/png_writer.h"
+#include "io/scale_length.h"
 #include "io/stroke_font.h"
 
 namespace dynslam {
@@ -131,20 +131,6 @@ void append_path(const TrinaryMap& map, const PictureLayout& l, const MapPicture
   disc(start, kStart, 7.0F, 0.4F);  // wide enough to be seen around an end at the same place
   disc(start, kFloor, 4.6F, 0.0F);
   disc(end, kEnd, 3.6F, 0.4F);
-}
-
-/// The longest of 1, 2, 5 times a power of ten that is at most `limit` (above 0).
-double round_length(double limit) {
-  const double power = std::pow(10.0, std::floor(std::log10(limit)));
-  for (const double digit : {5.0, 2.0}) {
-    if (digit * power <= limit) return digit * power;
-  }
-  return power;
-}
-
-std::string length_label(double length_m) {
-  return length_m >= 1000.0 ? shortest_text(std::round(length_m / 1000.0)) + " km"
-                            : shortest_text(length_m) + " m";
 }
 
 void append_scale_bar(const TrinaryMap& map, const PictureLayout& l, std::vector<Stroke>& out) {
