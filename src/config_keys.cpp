@@ -187,6 +187,8 @@ bool read_setting_value(const std::string& text, const ConfigKey& key) {
 
 }  // namespace
 
+void append(const ConfigKey& key, std::vector<ConfigKey>& keys) { keys.push_back(key); }
+
 std::vector<std::string> read_toml(std::string_view text, const std::string& place, const Keys& keys) {
   try {
     TomlReader reader(place, keys);

@@ -24,13 +24,16 @@ struct ConfigKey {
   std::string name() const { return std::string(section) + '.' + std::string(field.name); }
 };
 
+/// Out of line: GCC 14 warns of an overflow where it inlines dozens of these in a row.
+void append(const ConfigKey& key, std::vector<ConfigKey>& keys);
+
 /// All keys of a config struct, in the order of its `sections` and their `fields`.
 template <class AnyConfig>
 std::vector<ConfigKey> keys_of(AnyConfig& config) {
   std::vector<ConfigKey> keys;
   AnyConfig::sections(config, [&](std::string_view section, auto& part) {
     std::remove_reference_t<decltype(part)>::fields(part, [&](const Field& field, auto& value) {
-      keys.push_back({section, field, &value});
+      append({section, field, &value}, keys);
     });
   });
   return keys;

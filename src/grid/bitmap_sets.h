@@ -15,7 +15,8 @@ CellBitmap grown_by_sides(const CellBitmap& cells);
 /// The cells and the eight around each, `times` over.
 CellBitmap grown_all_round(const CellBitmap& cells, int times = 1);
 
-/// The cells whose eight neighbours are in the set too, `times` over; beyond the box there is nothing to miss.
+/// The cells whose eight neighbours are in the set too, `times` over; beyond the box there is nothing to
+/// miss.
 CellBitmap shrunk_all_round(const CellBitmap& cells, int times = 1);
 
 }  // namespace dynslam

@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "grid/chunked_grid.h"
 
-#include <array>
 #include <bit>
 #include <cstring>
+
+#include "grid/spread_bits.h"
 
 namespace dynslam {
 namespace {
 
 using Row = std::uint8_t[kChunkSide];
-
-/// For each byte of bits, eight bytes that are 0xFF where the bit is set.
-constexpr std::array<std::uint64_t, 256> make_spread() {
-  std::array<std::uint64_t, 256> spread{};
-  for (unsigned bits = 0; bits < 256; ++bits) {
-    for (unsigned b = 0; b < 8; ++b) {
-      if ((bits >> b) & 1U)
-        spread[bits] |= std::uint64_t{0xFF} << (8 * (std::endian::native == std::endian::little ? b : 7 - b));
-    }
-  }
-  return spread;
-}
-constexpr auto kSpread = make_spread();
 
 void miss_whole_row(Row& hit, Row& miss, CellRule rule) {
   for (int i = 0; i < kChunkSide; ++i) {
@@ -32,7 +20,7 @@ void miss_whole_row(Row& hit, Row& miss, CellRule rule) {
 
 void miss_row(Row& hit, Row& miss, std::uint64_t cells, CellRule rule) {
   alignas(64) Row chosen;
-  for (int i = 0; i < 8; ++i) std::memcpy(chosen + 8 * i, &kSpread[(cells >> (8 * i)) & 0xFF], 8);
+  for (int i = 0; i < 8; ++i) std::memcpy(chosen + 8 * i, &kSpreadBits[(cells >> (8 * i)) & 0xFF], 8);
   for (int i = 0; i < kChunkSide; ++i) {
     hit[i] = lowered(hit[i], static_cast<std::uint8_t>(chosen[i] & rule.loss));
     miss[i] = raised(miss[i], static_cast<std::uint8_t>(chosen[i] & rule.gain));
@@ -118,8 +106,8 @@ void ChunkedGrid::show(ChunkIndex index, const CellTile& free, const CellTile& o
       continue;
     }
     for (std::size_t i = 0; i < 8; ++i) {
-      std::memcpy(chunk->hit[r] + 8 * i, &kSpread[(occupied[r] >> (8 * i)) & 0xFF], 8);
-      std::memcpy(chunk->miss[r] + 8 * i, &kSpread[(free[r] >> (8 * i)) & 0xFF], 8);
+      std::memcpy(chunk->hit[r] + 8 * i, &kSpreadBits[(occupied[r] >> (8 * i)) & 0xFF], 8);
+      std::memcpy(chunk->miss[r] + 8 * i, &kSpreadBits[(free[r] >> (8 * i)) & 0xFF], 8);
     }
   }
 }

@@ -60,9 +60,9 @@ void TiledBitmap::add(const CellTile& tile) {
 const CellTile& TiledBitmap::tile(ChunkIndex chunk) const {
   if (chunk.x < box_.min.x || chunk.x > box_.max.x || chunk.y < box_.min.y || chunk.y > box_.max.y)
     return kClearTile;
-  const Place place = places_[static_cast<std::size_t>(chunk.y - box_.min.y) *
-                                  static_cast<std::size_t>(box_.width()) +
-                              static_cast<std::size_t>(chunk.x - box_.min.x)];
+  const Place place =
+      places_[static_cast<std::size_t>(chunk.y - box_.min.y) * static_cast<std::size_t>(box_.width()) +
+              static_cast<std::size_t>(chunk.x - box_.min.x)];
   return place == kNone ? kClearTile : place == kAll ? kFullTile : tiles_[place - kFirst];
 }
 

@@ -75,7 +75,7 @@ ReplayResult replay(Recording& recording, const SlamConfig& config, const Replay
   progress(1.0, result.trajectory_live.size());
 
   for (const StampedFix& fix : slam.trajectory()) result.trajectory.push_back({fix.stamp, fix.map_T_robot});
-  result.loop_closures = slam.back_end().closures();
+  result.loop_closures = slam.back_end().loops().closures();
   result.map = slam.global_map().snapshot();
   result.map_bytes = slam.global_map().bytes();
   result.local_maps = slam.local_maps_begun();

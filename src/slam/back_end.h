@@ -4,13 +4,12 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <vector>
 
 #include "base/counters.h"
 #include "slam/finished_map.h"
 #include "slam/global_map.h"
 #include "slam/local_map.h"
-#include "slam/loop_search.h"
+#include "slam/loop_closer.h"
 #include "slam/pose_graph.h"
 #include "slam/slam_config.h"
 
@@ -34,40 +33,26 @@ class BackEnd {
   GlobalMap& global_map() { return global_map_; }
   const GlobalMap& global_map() const { return global_map_; }
   const PoseGraph& graph() const { return graph_; }
-  std::uint64_t closures() const { return closures_; }
-  const Counters& counters() const { return counters_; }
+  const LoopCloser& loops() const { return loops_; }
+  Counters counters() const;
 
  private:
-  struct Finished {
-    std::shared_ptr<const FinishedMap> map;
-    double reach_m = 0.0;  ///< of its farthest surface from its origin
-  };
   /// Where a retired map went: its origin in that of one that lives, or was retired later.
   struct Anchor {
     std::uint32_t id = 0;
     Pose2 anchor_T_origin;
     Pose2 drawn_T_origin;
   };
-  struct Candidate {
-    std::uint32_t id = 0;
-    RelativePose target_T_source;  ///< as the graph has it
-    double worth = 0.0;
-  };
-
   void add_node(const LocalMap& map);
-  bool search_loops(const FinishedMap& source);
-  std::vector<Candidate> candidates(const FinishedMap& source) const;
-  bool try_loop(const FinishedMap& source, const Candidate& candidate);
   void settle();
   void retire_unneeded(std::uint32_t newest);
   Pose2 map_T_origin(std::uint32_t id) const;
 
-  SlamConfig config_;
   PoseGraph graph_;
+  LoopCloser loops_;
   GlobalMap global_map_;
-  std::map<std::uint32_t, Finished> maps_;
+  std::map<std::uint32_t, std::shared_ptr<const FinishedMap>> maps_;
   std::map<std::uint32_t, Anchor> retired_;
-  std::uint64_t closures_ = 0;
   Counters counters_;
 };
 

@@ -84,6 +84,7 @@ FinishedMap clean_up(const LocalMap& map, std::uint32_t id, Time ended) {
   out.free = TiledBitmap(free);
   out.occupied = TiledBitmap(occupied);
   out.cloud = cloud_of(sight.crests, occupied, map);
+  out.outline = thin_out(out.cloud, FinishedMap::kOutline, out.cell_size_m);
   return out;
 }
 

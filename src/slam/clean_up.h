@@ -19,11 +19,11 @@ FinishedMap clean_up(const LocalMap& map, std::uint32_t id, Time ended);
 /// REQUIRES: both cover the same box.
 void fill_cracks(CellBitmap& free, const CellBitmap& occupied, int crack_cells);
 
-/// The flood-fill clean-up on a map put together from others, where an older drawing of a wall may lie behind the newer one
-/// with a gap between them: free space that is nowhere wider than `gap_cells` and has no way to wider parts
-/// goes, and so do the surfaces that only it touched. What was seen from afar and has no way to it, as a room
-/// behind a door that is shut now, is wider and stays.
-/// REQUIRES: both cover the same box, and no cell is in both.
+/// The flood-fill clean-up on a map put together from others, where an older drawing of a wall may lie behind
+/// the newer one with a gap between them: free space that is nowhere wider than `gap_cells` and has no way to
+/// wider parts goes, and so do the surfaces that only it touched. What was seen from afar and has no way to
+/// it, as a room behind a door that is shut now, is wider and stays. REQUIRES: both cover the same box, and
+/// no cell is in both.
 void drop_gaps(CellBitmap& free, CellBitmap& occupied, int gap_cells);
 
 }  // namespace dynslam

@@ -20,10 +20,13 @@ constexpr double kFarthestOdometry_m = 1e7;
 /// Less than this since the last scan that counted: the robot stands.
 constexpr double kStanding_m = 0.02;
 constexpr double kStanding_rad = 0.01;
-/// After so many scans that the map does not explain, a new map begins where motion sensors say the robot is.
+/// After so many scans that the map does not explain, or so long a way, a new map begins where motion sensors
+/// say the robot is.
 constexpr int kMostUnmatched = 20;
-/// Below this fit the prior is doubted; it is set aside for an answer that fits so much better.
-constexpr double kPoorFit = 0.25;
+constexpr double kMostBlind_m = 1.0;
+/// When less of the scan lies on what the map holds, the prior is doubted; it is set aside for an answer that
+/// fits so much better.
+constexpr double kPoorlyMatched = 0.65;
 constexpr double kClearlyBetter = 0.2;
 /// How fast the usual hit follows the scans.
 constexpr double kUsualShare = 0.2;
@@ -137,16 +140,19 @@ FrontEndResult FrontEnd::process(const Scan& scan) {
   return result;
 }
 
-/// Counts scans that the map does not explain; after too many, a new map begins. A scan that shows nothing
-/// says nothing against the map.
+/// Counts scans that the map does not explain; after too many, or too long a way, a new map begins. A scan that
+/// shows nothing says nothing against the map.
 void FrontEnd::note_match(const Fix& fix) {
   if (!fix.matched) counters_.add("slam.scans_unmatched");
   if (points_.empty()) return;
   unmatched_in_a_row_ = fix.matched ? 0 : unmatched_in_a_row_ + 1;
-  if (unmatched_in_a_row_ <= kMostUnmatched) return;
+  if (unmatched_in_a_row_ == 0) last_matched_ = fix.map_T_robot;
+  const double blind_m = (fix.map_T_robot.translation() - last_matched_.translation()).norm();
+  if (unmatched_in_a_row_ <= kMostUnmatched && blind_m <= kMostBlind_m) return;
   counters_.add("slam.times_lost");
   complete_all();
   unmatched_in_a_row_ = 0;
+  last_matched_ = fix.map_T_robot;
   usual_hit_ = 0.0;
 }
 
@@ -178,23 +184,13 @@ FrontEnd::Fix FrontEnd::first_fix(Time t) {
   return fix;
 }
 
-/// Where the scan was taken, by the map. A prior that the scan contradicts is set aside for a wider look;
-/// where the map does not answer, the motion sensors' word stands.
+/// Where the scan was taken, by the map; where the map does not answer, the motion sensors' word stands.
 FrontEnd::Fix FrontEnd::locate(const CorrectedScan& scan) {
-  const ChunkedGrid& map = local_maps_.front().grid;
-  MatchPrior prior = motion_.expect(scan.reference);
-  prior.usual_hit = usual_hit_;
+  const MatchPrior prior = motion_.expect(scan.reference);
   Fix fix;
-  fix.match = matcher_.match(map, points_, prior);
-  if (fit_of(fix.match) < kPoorFit) {
-    MatchPrior wide = motion_.expect_without_wheels(scan.reference);
-    wide.usual_hit = usual_hit_;
-    const MatchResult other = matcher_.match(map, points_, wide);
-    if (is_believable(other) && fit_of(other) > fit_of(fix.match) + kClearlyBetter) {
-      counters_.add("slam.priors_set_aside");
-      fix.match = other;
-    }
-  }
+  fix.match = match(prior);
+  if (motion_.wheels_leap(scan.reference)) look_along_wheels(scan.reference, fix);
+  if (fix.match.matched < kPoorlyMatched) look_about(scan.reference, fix);
   fix.matched = is_believable(fix.match);
   fix.map_T_robot = fix.matched ? fix.match.map_T_robot : prior.map_T_robot;
   if (!is_within(fix.map_T_robot, kFarthest_m)) {
@@ -204,6 +200,29 @@ FrontEnd::Fix FrontEnd::locate(const CorrectedScan& scan) {
   }
   if (fix.matched) usual_hit_ += (usual_hit_ == 0 ? 1.0 : kUsualShare) * (fix.match.mean_hit - usual_hit_);
   return fix;
+}
+
+MatchResult FrontEnd::match(MatchPrior prior) {
+  prior.usual_hit = usual_hit_;
+  return matcher_.match(local_maps_.front().grid, points_, prior);
+}
+
+/// The wheels' count stood still or caught up: unless the scan clearly says otherwise, as it cannot along a
+/// corridor, the longer way is right.
+void FrontEnd::look_along_wheels(Time t, Fix& fix) {
+  const auto longer = motion_.expect_by_longer_way(t);
+  if (!longer) return;
+  counters_.add("slam.wheels_leapt");
+  const MatchResult other = match(*longer);
+  if (is_believable(other) && fit_of(other) > fit_of(fix.match) - kClearlyBetter) fix.match = other;
+}
+
+/// A prior that the scan contradicts is set aside for a wider look.
+void FrontEnd::look_about(Time t, Fix& fix) {
+  const MatchResult other = match(motion_.expect_doubting_wheels(t));
+  if (!is_believable(other) || fit_of(other) <= fit_of(fix.match) + kClearlyBetter) return;
+  counters_.add("slam.priors_set_aside");
+  fix.match = other;
 }
 
 void FrontEnd::begin_local_map(const Fix& fix, Time t) {

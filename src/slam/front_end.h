@@ -81,6 +81,9 @@ class FrontEnd {
   CorrectedScan correct(const Scan& scan);
   Fix first_fix(Time t);
   Fix locate(const CorrectedScan& scan);
+  MatchResult match(MatchPrior prior);
+  void look_along_wheels(Time t, Fix& fix);
+  void look_about(Time t, Fix& fix);
   void note_match(const Fix& fix);
   bool may_insert(const Scan& scan, const Fix& fix);
   void insert(const CorrectedScan& scan, const Pose2& map_T_robot);
@@ -105,6 +108,7 @@ class FrontEnd {
   Pose2 last_counted_;
   double usual_hit_ = 0.0;  ///< see MatchPrior
   int unmatched_in_a_row_ = 0;
+  Pose2 last_matched_;
   std::optional<Time> last_stamp_;
   Counters counters_;
 };

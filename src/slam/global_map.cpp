@@ -87,8 +87,8 @@ void GlobalMap::move_to(std::uint32_t id, Placed& placed, const Pose2& map_T_ori
   const Pose2 after_T_before = map_T_origin * placed.map_T_origin.inverse();
   const std::set<CellIndex> before = std::exchange(placed.blocks, {});
   placed.map_T_origin = map_T_origin;
-  const double half = 0.5 * block_cells(),
-               reach = half * (std::abs(std::cos(after_T_before.yaw)) + std::abs(std::sin(after_T_before.yaw)));
+  const double half = 0.5 * block_cells(), reach = half * (std::abs(std::cos(after_T_before.yaw)) +
+                                                           std::abs(std::sin(after_T_before.yaw)));
   for (const CellIndex b : before) {
     const Vector2 middle = cell_size_m_ * Vector2(b.x * 2 * half + half, b.y * 2 * half + half);
     name_under_square(after_T_before * middle / cell_size_m_, reach, id, placed);

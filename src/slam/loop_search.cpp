@@ -15,36 +15,8 @@ constexpr std::uint8_t kOnSurface = 90;
 /// Around a target's point, this much of the source's space must be free all over to contradict it.
 constexpr double kClear_m = 0.1;
 
-bool is_finite(const CloudPoint& p) { return std::isfinite(p.x_m) && std::isfinite(p.y_m); }
-
 bool is_sound(const SearchWindow& w) {
   return std::isfinite(w.half_x_m) && std::isfinite(w.half_y_m) && std::isfinite(w.half_yaw_rad);
-}
-
-/// One point for each square of `step_m` that holds any: their mean. (The first of them would be the lowest
-/// of a wall some cells thick, and the whole cloud half a wall off.)
-std::vector<Vector2> one_a_square(const std::vector<CloudPoint>& cloud, double step_m, const Vector2& low,
-                                  const Vector2& high) {
-  const auto columns = static_cast<std::size_t>((high.x() - low.x()) / step_m) + 1;
-  const auto rows = static_cast<std::size_t>((high.y() - low.y()) / step_m) + 1;
-  std::vector<std::uint32_t> place(columns * rows, 0);  // in `kept`, counted from 1
-  std::vector<Vector2> kept;
-  std::vector<double> count;
-  for (const CloudPoint& p : cloud) {
-    if (!is_finite(p)) continue;
-    const auto column = static_cast<std::size_t>((p.x_m - low.x()) / step_m);
-    const auto row = static_cast<std::size_t>((p.y_m - low.y()) / step_m);
-    std::uint32_t& at = place[row * columns + column];
-    if (at == 0) {
-      kept.emplace_back(0, 0);
-      count.push_back(0);
-      at = static_cast<std::uint32_t>(kept.size());
-    }
-    kept[at - 1] += Vector2(p.x_m, p.y_m);
-    count[at - 1] += 1;
-  }
-  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] /= count[i];
-  return kept;
 }
 
 /// What the target says of the source's points at a pose in the frame it was drawn in; shares.
@@ -94,7 +66,7 @@ void judge_target(const FinishedMap& target, const FinishedMap& source, std::siz
   const Pose2 drawn_T_target = source.drawn_T_origin * match.target_T_source.inverse();
   const int reach = static_cast<int>(std::ceil(kClear_m / source.cell_size_m));
   int known = 0, contradicted = 0;
-  for (const Vector2& p : thin_out(target.cloud, points, target.cell_size_m)) {
+  for (const Vector2& p : thin_out(target.outline, points, target.cell_size_m)) {
     const CellIndex cell = cell_at(drawn_T_target * p, source.cell_size_m);
     const bool free = source.free.test(cell);
     if (!free && !source.occupied.test(cell)) continue;
@@ -113,34 +85,12 @@ double roundness_of(const Eigen::Matrix3d& information) {
 
 }  // namespace
 
-std::vector<Vector2> thin_out(const std::vector<CloudPoint>& cloud, std::size_t most, double least_step_m) {
-  constexpr int kMostRounds = 40;
-  Vector2 low = Vector2::Zero(), high = low;
-  bool any = false;
-  for (const CloudPoint& p : cloud) {
-    if (!is_finite(p)) continue;
-    const Vector2 at(p.x_m, p.y_m);
-    low = any ? Vector2(low.cwiseMin(at)) : at;
-    high = any ? Vector2(high.cwiseMax(at)) : at;
-    any = true;
-  }
-  if (!any || most == 0) return {};
-  // Surfaces are lines: the squares that they touch are fewer as the squares are larger.
-  double step = least_step_m;
-  std::vector<Vector2> kept = one_a_square(cloud, step, low, high);
-  for (int round = 0; round < kMostRounds && kept.size() > most; ++round) {
-    step *= std::max(1.05, static_cast<double>(kept.size()) / static_cast<double>(most));
-    kept = one_a_square(cloud, step, low, high);
-  }
-  return kept;
-}
-
 LoopMatch find_loop(const MaxPyramid& pyramid, const FinishedMap& target, const FinishedMap& source,
                     const Pose2& guess, const SearchWindow& window, const LoopSearchConfig& config) {
   LoopMatch match;
   match.target_T_source = guess;
   if (!is_finite(guess) || guess.translation().norm() > 1e5 || !is_sound(window)) return match;
-  const std::vector<Vector2> coarse = thin_out(source.cloud, config.search_points, pyramid.cell_size_m());
+  const std::vector<Vector2> coarse = thin_out(source.outline, config.search_points, pyramid.cell_size_m());
   PyramidSearch search(pyramid, coarse, target.drawn_T_origin * guess, window, config.search);
   const PyramidSearchResult found = search.run();
   match.nodes = found.nodes;
@@ -149,7 +99,7 @@ LoopMatch find_loop(const MaxPyramid& pyramid, const FinishedMap& target, const 
   match.found = true;
   const Pose2 best = search.pose_of(*found.best);  // in the frame the target was drawn in
   if (found.rival) match.runner_up = runner_up(pyramid, coarse, best, search.pose_of(*found.rival));
-  const std::vector<Vector2> points = thin_out(source.cloud, config.fit_points, source.cell_size_m);
+  const std::vector<Vector2>& points = source.outline;
   const SurfaceFit surfaces(target.cloud, target.cell_size_m);
   const SurfaceFit::Result fit = surfaces.fit(points, target.drawn_T_origin.inverse() * best);
   match.target_T_source = fit.cloud_T_points;

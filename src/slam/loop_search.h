@@ -40,8 +40,7 @@ struct LoopMatch {
 };
 
 struct LoopSearchConfig {
-  std::size_t search_points = 400;
-  std::size_t fit_points = 800;  ///< for the refinement and the verdict
+  std::size_t search_points = 400;  ///< of the source's outline; all of it for refinement and verdict
   PyramidSearchConfig search;
 };
 
@@ -66,9 +65,5 @@ struct LoopRules {
 
 /// Why a match must not become a constraint; nothing when it may.
 std::optional<std::string_view> refusal(const LoopMatch& match, const LoopRules& rules = {});
-
-/// At most `most` points of a cloud, evenly over its surfaces: one for each square of a lattice that is as
-/// fine as that allows.
-std::vector<Vector2> thin_out(const std::vector<CloudPoint>& cloud, std::size_t most, double least_step_m);
 
 }  // namespace dynslam

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "slam/max_pyramid.h"
 
-#include <bit>
 #include <cmath>
+#include <cstring>
 #include <utility>
+
+#include "grid/spread_bits.h"
 
 namespace dynslam {
 namespace {
@@ -13,16 +15,68 @@ constexpr double kRidgeSigma = 0.7;
 /// Height of the ridge so many base cells off.
 double ridge(double off) { return std::exp(-off * off / (2 * kRidgeSigma * kRidgeSigma)); }
 
+/// How often the side of a map cell is doubled to be so many cells long, or more; once at least, three times
+/// at most.
+int halvings_for(double cells) {
+  return std::clamp(static_cast<int>(std::ceil(std::log2(cells) - 1e-9)), 1, 3);
+}
+
+/// The even bits, moved together.
+std::uint64_t even_bits(std::uint64_t w) {
+  w &= 0x5555555555555555ULL;
+  w = (w | w >> 1) & 0x3333333333333333ULL;
+  w = (w | w >> 2) & 0x0F0F0F0F0F0F0F0FULL;
+  w = (w | w >> 4) & 0x00FF00FF00FF00FFULL;
+  w = (w | w >> 8) & 0x0000FFFF0000FFFFULL;
+  return (w | w >> 16) & 0x00000000FFFFFFFFULL;
+}
+
+/// Of each two by two bits of two rows: whether three are set at least.
+std::uint64_t three_of_four(std::uint64_t low, std::uint64_t high) {
+  const std::uint64_t both = (low & high) & (low >> 1 | high >> 1),
+                      pair = (low >> 1 & high >> 1) & (low | high);
+  return even_bits(both | pair);
+}
+
+/// A row of words of a bitmap `halvings` times halved, from the (halved) cell `first` on.
+void halve(const TiledBitmap& cells, CellIndex first, int halvings, std::vector<std::uint64_t>& row) {
+  if (halvings == 0) {
+    for (std::size_t w = 0; w < row.size(); ++w)
+      row[w] = cells.word({first.x + static_cast<std::int32_t>(w) * kChunkSide, first.y});
+    return;
+  }
+  std::vector<std::uint64_t> low(2 * row.size()), high(low.size());
+  halve(cells, {2 * first.x, 2 * first.y}, halvings - 1, low);
+  halve(cells, {2 * first.x, 2 * first.y + 1}, halvings - 1, high);
+  for (std::size_t w = 0; w < row.size(); ++w) {
+    row[w] = three_of_four(low[2 * w], high[2 * w]) | three_of_four(low[2 * w + 1], high[2 * w + 1])
+                                                          << (kChunkSide / 2);
+  }
+}
+
+void clear_bytes(std::uint64_t chosen, std::uint8_t* bytes, int n) {
+  std::uint64_t eight = 0;
+  std::memcpy(&eight, bytes, static_cast<std::size_t>(n));
+  eight &= ~chosen;
+  std::memcpy(bytes, &eight, static_cast<std::size_t>(n));
+}
+
 Vector2 drawn_position(const FinishedMap& map, const CloudPoint& p) {
   return map.drawn_T_origin * Vector2(p.x_m, p.y_m);
+}
+
+/// Of the cells from `first` on, the maxima over the rows 2 y to 2 y + 2.
+void most_of_three_rows(const MaxPyramid::Plane& plane, int y, int first, std::vector<std::uint8_t>& most) {
+  const std::uint8_t* row[3];
+  for (int i = 0; i < 3; ++i) row[i] = &plane.bytes[static_cast<std::size_t>(plane.offset(first, 2 * y + i))];
+  for (std::size_t x = 0; x < most.size(); ++x) most[x] = std::max(std::max(row[0][x], row[1][x]), row[2][x]);
 }
 
 }  // namespace
 
 MaxPyramid::MaxPyramid(const FinishedMap& map, const MaxPyramidConfig& config)
-    : map_cells_(std::max(config.least_map_cells,
-                          static_cast<int>(std::ceil(config.least_cell_m / map.cell_size_m - 1e-9)))),
-      cell_size_m_(map_cells_ * map.cell_size_m),
+    : map_cell_bits_(halvings_for(config.least_cell_m / map.cell_size_m)),
+      cell_size_m_((1 << map_cell_bits_) * map.cell_size_m),
       unknown_worth_(config.unknown_worth),
       planes_(kLevels) {
   measure(map);
@@ -35,9 +89,7 @@ MaxPyramid::MaxPyramid(const FinishedMap& map, const MaxPyramidConfig& config)
 
 /// Makes room for all that the map knows, with all of it unknown.
 void MaxPyramid::measure(const FinishedMap& map) {
-  const auto base = [&](std::int32_t cell) {
-    return static_cast<std::int32_t>(std::floor(static_cast<double>(cell) / map_cells_));
-  };
+  const auto base = [&](std::int32_t cell) { return cell >> map_cell_bits_; };
   int width = 0, height = 0;
   const CellBox free = map.free.bounds(), occupied = map.occupied.bounds();
   if (!free.empty() || !occupied.empty()) {
@@ -62,30 +114,18 @@ void MaxPyramid::measure(const FinishedMap& map) {
   }
 }
 
-/// Adds the free cells of a row of the map to the base cells that they lie in.
-void MaxPyramid::count_free(const FinishedMap& map, std::int32_t map_row,
-                            std::vector<std::uint8_t>& free) const {
-  const std::int32_t left = first_.x * map_cells_, right = left + width() * map_cells_;
-  for (std::int32_t x = left; x < right; x += kChunkSide) {
-    for (std::uint64_t bits = map.free.word({x, map_row}); bits != 0; bits &= bits - 1) {
-      const auto base = static_cast<std::size_t>((x - left + std::countr_zero(bits)) / map_cells_);
-      if (base < free.size()) ++free[base];
-    }
-  }
-}
-
-/// A base cell is free when most of it is.
+/// A base cell is free when most of it is: three of four cells, and again for each further halving.
 void MaxPyramid::draw_free(const FinishedMap& map) {
-  Plane& base = planes_[0];
-  std::vector<std::uint8_t> free(static_cast<std::size_t>(base.width));
-  for (int y = 0; y < base.height; ++y) {
-    std::fill(free.begin(), free.end(), std::uint8_t{0});
-    for (int i = 0; i < map_cells_; ++i) count_free(map, (first_.y + y) * map_cells_ + i, free);
-    for (int x = 0; x < base.width; ++x) {
-      if (2 * free[static_cast<std::size_t>(x)] <= map_cells_ * map_cells_) continue;
-      base.bytes[static_cast<std::size_t>(base.offset(x, y))] = 0;
-      known_.set({x, y});
-      clear_.set({x, y});
+  const auto words = static_cast<std::size_t>(known_.words_per_row());
+  std::vector<std::uint64_t> free(words);
+  for (int y = 0; y < height(); ++y) {
+    halve(map.free, {first_.x, first_.y + y}, map_cell_bits_, free);
+    std::copy(free.begin(), free.end(), known_.row(y));
+    std::copy(free.begin(), free.end(), clear_.row(y));
+    std::uint8_t* const bytes = &planes_[0].bytes[static_cast<std::size_t>(planes_[0].offset(0, y))];
+    for (int x = 0; x < width(); x += 8) {
+      const std::uint64_t eight = free[static_cast<std::size_t>(x / kChunkSide)] >> (x % kChunkSide) & 0xFF;
+      clear_bytes(kSpreadBits[eight], bytes + x, std::min(8, width() - x));
     }
   }
 }
@@ -130,19 +170,20 @@ void MaxPyramid::clear_around_surfaces(const FinishedMap& map, double clear_m) {
   }
 }
 
+/// Each cell from the nine below it: first down the columns, then along the row.
 void MaxPyramid::stack() {
+  std::vector<std::uint8_t> column;
   for (std::size_t k = 1; k < planes_.size(); ++k) {
     const Plane& below = planes_[k - 1];
     Plane& here = planes_[k];
+    const int first = -2, columns = 2 * here.width + 3;
+    column.resize(static_cast<std::size_t>(columns));
     for (int y = -1; y < here.height; ++y) {
-      for (int x = -1; x < here.width; ++x) {
-        std::uint8_t most = 0;
-        for (int r = 2 * y; r <= 2 * y + 2; ++r) {
-          for (int c = 2 * x; c <= 2 * x + 2; ++c) {
-            most = std::max(most, below.bytes[static_cast<std::size_t>(below.offset(c, r))]);
-          }
-        }
-        here.bytes[static_cast<std::size_t>(here.offset(x, y))] = most;
+      most_of_three_rows(below, y, first, column);
+      std::uint8_t* out = &here.bytes[static_cast<std::size_t>(here.offset(-1, y))];
+      for (int x = 0; x <= here.width; ++x) {
+        const std::uint8_t* in = &column[static_cast<std::size_t>(2 * x)];
+        out[x] = std::max(std::max(in[0], in[1]), in[2]);
       }
     }
   }

@@ -12,9 +12,9 @@
 namespace dynslam {
 
 struct MaxPyramidConfig {
-  double least_cell_m = 0.04;  ///< side of a cell of the lowest level is at least this,
-  int least_map_cells = 2;     ///< and this many cells of the map
-  double clear_m = 0.1;        ///< a point in free space this far from every surface contradicts the map
+  /// Side of a cell of the lowest level, at least: that is 2, 4 or 8 cells of the map.
+  double least_cell_m = 0.04;
+  double clear_m = 0.1;  ///< a point in free space this far from every surface contradicts the map
   /// What a point in space that was never seen scores, of 255 for one on a surface; in free space it scores
   /// nothing. Otherwise a search would rather push two maps over each other than let one reach beyond the
   /// other.
@@ -78,12 +78,11 @@ class MaxPyramid {
  private:
   void measure(const FinishedMap& map);
   void draw_free(const FinishedMap& map);
-  void count_free(const FinishedMap& map, std::int32_t map_row, std::vector<std::uint8_t>& free) const;
   void draw_surfaces(const FinishedMap& map);
   void clear_around_surfaces(const FinishedMap& map, double clear_m);
   void stack();
 
-  int map_cells_;  ///< along the side of a base cell
+  int map_cell_bits_;  ///< a base cell is 2 to the power of this map cells wide
   double cell_size_m_;
   std::uint8_t unknown_worth_;
   CellIndex first_;  ///< counted in base cells from the frame's origin

@@ -17,6 +17,13 @@ constexpr double kLongestCarryOn_s = 1.0;
 constexpr double kFastest_mps = 5.0;
 constexpr double kLongestWay_s = 20.0;
 
+/// A leap of the wheels: more than this, and more than so strong an acceleration explains.
+constexpr double kLeastLeap_m = 0.1;
+constexpr double kLeapAcceleration_mps2 = 5.0;
+
+constexpr double kLongestStandstill_s = 1.5;
+constexpr std::size_t kMostFixes = 64;
+
 // A wider search than this costs more than it finds.
 constexpr double kLeastKnown_m = 0.6;
 constexpr double kLeastKnown_rad = 0.35;
@@ -47,6 +54,15 @@ Pose2 MotionModel::carried_on(double seconds) const {
   return {moved.x(), moved.y(), turned};
 }
 
+MatchPrior MotionModel::by_wheels(const Pose2& from, const Pose2& step) {
+  MatchPrior prior;
+  const double travel = step.translation().norm(), turned = std::abs(step.yaw);
+  prior.sigma_xy_m = 0.015 + 0.1 * travel + 0.03 * turned;
+  prior.sigma_yaw_rad = 0.01 + 0.2 * turned + 0.05 * travel;
+  prior.map_T_robot = from * step;
+  return prior;
+}
+
 MatchPrior MotionModel::expect(Time t) const {
   const double dt = to_seconds(t - time_);
   Pose2 step = carried_on(dt);
@@ -57,9 +73,7 @@ MatchPrior MotionModel::expect(Time t) const {
   prior.sigma_yaw_rad = 0.005 + 0.5 * kTurnAcceleration_radps2 * unsure_s * unsure_s;
   if (const auto wheels = wheel_motion(time_, t)) {
     step = *wheels;
-    const double travel = step.translation().norm(), turned = std::abs(step.yaw);
-    prior.sigma_xy_m = 0.015 + 0.1 * travel + 0.03 * turned;
-    prior.sigma_yaw_rad = 0.01 + 0.2 * turned + 0.05 * travel;
+    prior = by_wheels(pose_, step);
   }
   if (const auto turned = imu_turn(time_, t)) {
     step.yaw = *turned;
@@ -71,14 +85,38 @@ MatchPrior MotionModel::expect(Time t) const {
   return prior;
 }
 
-MatchPrior MotionModel::expect_without_wheels(Time t) const {
+MatchPrior MotionModel::expect_doubting_wheels(Time t) const {
   const double dt = to_seconds(t - time_);
-  MatchPrior prior;
   Pose2 step = carried_on(dt);
-  if (const auto turned = imu_turn(time_, t)) step.yaw = *turned;
-  prior.map_T_robot = pose_ * step;
+  MatchPrior prior;
   prior.sigma_xy_m = 0.2;
   prior.sigma_yaw_rad = 0.25;
+  if (const auto wheels = dt > kLongestCarryOn_s ? wheel_motion(time_, t) : std::nullopt) {
+    step = *wheels;
+    const double travel = step.translation().norm();
+    prior.sigma_xy_m = std::clamp(0.2 * travel, 0.1, kLeastKnown_m);
+  }
+  if (const auto turned = imu_turn(time_, t)) step.yaw = *turned;
+  prior.map_T_robot = pose_ * step;
+  return prior;
+}
+
+bool MotionModel::wheels_leap(Time t) const {
+  const double dt = to_seconds(t - time_);
+  const auto wheels = wheel_motion(time_, t);
+  if (!wheels || dt <= 0 || dt > kLongestCarryOn_s) return false;
+  const double beyond = (wheels->translation() - carried_on(dt).translation()).norm();
+  return beyond > kLeastLeap_m + 0.5 * kLeapAcceleration_mps2 * dt * dt;
+}
+
+std::optional<MatchPrior> MotionModel::expect_by_longer_way(Time t) const {
+  if (fixes_.empty()) return std::nullopt;
+  const auto wheels = wheel_motion(fixes_.front().time, t);
+  if (!wheels) return std::nullopt;
+  MatchPrior prior = by_wheels(fixes_.front().map_T_robot, *wheels);
+  prior.sigma_xy_m = std::min(prior.sigma_xy_m, kLeastKnown_m);
+  prior.sigma_yaw_rad = std::min(prior.sigma_yaw_rad, kLeastKnown_rad);
+  if (const auto turned = imu_turn(time_, t)) prior.map_T_robot.yaw = pose_.yaw + *turned;
   return prior;
 }
 
@@ -114,6 +152,15 @@ void MotionModel::fix(Time t, const Pose2& map_T_robot) {
   has_fix_ = true;
   time_ = t;
   pose_ = map_T_robot;
+  remember(t, map_T_robot);
+}
+
+/// Keeps the fixes of the last while; a clock that is set back begins anew.
+void MotionModel::remember(Time t, const Pose2& map_T_robot) {
+  if (!fixes_.empty() && t <= fixes_.back().time) fixes_.clear();
+  fixes_.push_back({t, map_T_robot});
+  while (fixes_.size() > kMostFixes || to_seconds(t - fixes_.front().time) > kLongestStandstill_s)
+    fixes_.pop_front();
 }
 
 }  // namespace dynslam

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <deque>
 #include <optional>
 
 #include "base/imu_sample.h"
@@ -26,8 +27,15 @@ class MotionModel {
   /// Where the robot should be at `t`, and how far off that may be. The pose of the last fix before there is
   /// motion.
   MatchPrior expect(Time t) const;
-  /// The same without the wheels: what is left when they contradict the scan. Looks about widely.
-  MatchPrior expect_without_wheels(Time t) const;
+  /// The same when the scan contradicts the wheels. Looks about widely: around where the velocity leads, or
+  /// after longer than a velocity lasts, around where the wheels do.
+  MatchPrior expect_doubting_wheels(Time t) const;
+  /// Whether the wheels claim a leap, or a halt, that no robot makes at the speed it was seen to have: a
+  /// count that stands still for a while and then catches up.
+  bool wheels_leap(Time t) const;
+  /// Where the wheels' way from a second and a half ago leads: right whether or not the robot was believed to
+  /// stand while the count stood. Nothing without wheels.
+  std::optional<MatchPrior> expect_by_longer_way(Time t) const;
   /// The motion around a scan's reference time, for the egomotion pass.
   MotionInScan motion_around(Time reference) const;
 
@@ -46,6 +54,8 @@ class MotionModel {
   struct Velocity {  ///< in the robot's frame
     double x_mps = 0, y_mps = 0, yaw_radps = 0;
   };
+  static MatchPrior by_wheels(const Pose2& from, const Pose2& step);
+  void remember(Time t, const Pose2& map_T_robot);
   std::optional<double> imu_turn(Time from, Time to) const;
   std::optional<Pose2> wheel_motion(Time from, Time to) const;
   Pose2 carried_on(double seconds) const;
@@ -56,6 +66,11 @@ class MotionModel {
   Time time_;
   Pose2 pose_;
   Velocity velocity_;
+  struct Fix {
+    Time time;
+    Pose2 map_T_robot;
+  };
+  std::deque<Fix> fixes_;  ///< of the last second and a half
 };
 
 }  // namespace dynslam

@@ -168,7 +168,7 @@ void PyramidSearch::descend(const Strip& strip) {
       children.push_back(child);
     }
   }
-  search(std::move(children));
+  search(children);
 }
 
 void PyramidSearch::take(const Strip& leaf) {
@@ -217,7 +217,7 @@ PyramidSearchResult PyramidSearch::run() {
   const double evidence = result_.best->sum / static_cast<double>(points_.size()) - target_.unknown_worth();
   floor_ = sum_with_evidence(config_.rival_floor * evidence);
   for (Strip& s : strips) close_lanes(s);
-  search(std::move(strips));
+  search(strips);
   result_.rival = found_;
   return result_;
 }

@@ -44,10 +44,11 @@ struct PyramidSearchResult {
   bool out_of_budget = false;  ///< what was found until then may not be the best
 };
 
-/// Finds the lattice pose of the source, in the frame the target was drawn in, at which the source's points score most on the target: branch and
-/// bound over x and y for every yaw (Hess et al., ICRA 2016), 16 neighbouring blocks of x at once on every
-/// level. Then the best one clearly elsewhere. The lattice's yaw step moves the farthest point by one cell.
-/// Work is bounded by nodes, so that the same input gives the same answer on every machine. One thread.
+/// Finds the lattice pose of the source, in the frame the target was drawn in, at which the source's points
+/// score most on the target: branch and bound over x and y for every yaw (Hess et al., ICRA 2016), 16
+/// neighbouring blocks of x at once on every level. Then the best one clearly elsewhere. The lattice's yaw
+/// step moves the farthest point by one cell. Work is bounded by nodes, so that the same input gives the same
+/// answer on every machine. One thread.
 class PyramidSearch {
  public:
   /// `points_m` in the frame of the source's origin. All must outlive the search.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
@@ -43,6 +45,18 @@ inline double mahalanobis2(const RelativePose& measured, const Pose2& expected) 
   const Eigen::Vector3d off(measured.pose.x - expected.x, measured.pose.y - expected.y,
                             turn(expected.yaw, measured.pose.yaw));
   return off.dot(measured.covariance.llt().solve(off));
+}
+
+/// A covariance of independent errors of (x, y, yaw).
+inline Eigen::Matrix3d spread(double xy_m, double yaw_rad) {
+  return Eigen::Vector3d(xy_m * xy_m, xy_m * xy_m, yaw_rad * yaw_rad).asDiagonal();
+}
+
+/// A covariance given along the axes of a pose's yaw, along those of the frame around it.
+inline Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() << std::cos(yaw), -std::sin(yaw), std::sin(yaw), std::cos(yaw);
+  return turn * covariance * turn.transpose();
 }
 
 }  // namespace dynslam

@@ -43,20 +43,24 @@ inline FinishedMap finish(const ChunkedGrid& grid, const Pose2& drawn_T_origin) 
   FinishedMap map;
   map.cell_size_m = grid.cell_size_m();
   map.drawn_T_origin = drawn_T_origin;
-  map.free.reset(grid.box());
-  map.occupied.reset(grid.box());
+  CellBitmap free, occupied;
+  free.reset(grid.box());
+  occupied.reset(grid.box());
   const Pose2 origin_T_drawn = drawn_T_origin.inverse();
-  const CellIndex low = map.free.first();
-  for (int y = low.y; y < low.y + map.free.rows(); ++y) {
-    for (int x = low.x; x < low.x + map.free.words_per_row() * kChunkSide; ++x) {
+  const CellIndex low = free.first();
+  for (int y = low.y; y < low.y + free.rows(); ++y) {
+    for (int x = low.x; x < low.x + free.words_per_row() * kChunkSide; ++x) {
       const CellIndex cell{x, y};
-      if (grid.state(cell) == CellState::kFree) map.free.set(cell);
+      if (grid.state(cell) == CellState::kFree) free.set(cell);
       if (grid.state(cell) != CellState::kOccupied) continue;
-      map.occupied.set(cell);
+      occupied.set(cell);
       const Vector2 p = origin_T_drawn * cell_centre(cell, map.cell_size_m);
       map.cloud.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), grid.hit(cell)});
     }
   }
+  map.free = TiledBitmap(free);
+  map.occupied = TiledBitmap(occupied);
+  map.outline = thin_out(map.cloud, FinishedMap::kOutline, map.cell_size_m);
   return map;
 }
 

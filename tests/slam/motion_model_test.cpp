@@ -42,7 +42,7 @@ TEST(MotionModel, TakesTheWayFromTheWheels) {
   motion.add(OdometrySample{time_at_s(1.0), {7, 7, 1.0}});
   motion.add(OdometrySample{time_at_s(1.1), {7 + 0.2 * std::cos(1.0), 7 + 0.2 * std::sin(1.0), 1.1}});
   EXPECT_THAT(motion.expect(time_at_s(1.1)).map_T_robot, PoseNear(Pose2{0.7, 0, 0.1}, 1e-6, 1e-6));
-  EXPECT_THAT(motion.expect_without_wheels(time_at_s(1.1)).map_T_robot,
+  EXPECT_THAT(motion.expect_doubting_wheels(time_at_s(1.1)).map_T_robot,
               PoseNear(Pose2{0.55, 0, 0}, 0.002, 1e-6));
 }
 

@@ -17,6 +17,7 @@
 #include <CLI/CLI.hpp>
 
 #include "config.h"
+#include "io/safe_file.h"
 #include "tools/jitter/jitter_runs.h"
 #include "tools/jitter/spread.h"
 #include "tools/jitter/tum_file.h"
@@ -29,7 +30,7 @@ constexpr int kUnusable = 2;
 
 struct Options {
   std::string recording, reference;
-  std::optional<std::string> config;
+  std::optional<std::string> config, keep;
   std::vector<std::string> settings;
   JitterPlan plan;
   Tolerance tolerance;
@@ -58,6 +59,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--set", options.settings, "one setting, over what the file says: section.key=value")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  app.add_option("--keep", options.keep, "folder for the copies' trajectories, for those who look closer")
+      ->type_name("DIR");
   app.add_option("--copies", options.plan.copies, "jittered copies to replay")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
@@ -70,6 +73,13 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   add_jitter_options(app, options.plan.jitter);
+}
+
+void keep_trajectories(const std::vector<CopyResult>& results, const std::string& folder) {
+  OutputFolder out(folder);
+  for (const CopyResult& copy : results)
+    out.stage("copy-" + std::to_string(copy.seed.value_or(0)) + ".tum", to_tum(copy.trajectory));
+  out.commit();
 }
 
 void print_copy(const CopyResult& copy) {
@@ -111,6 +121,7 @@ int run(int argc, char** argv) {
 
   std::printf("%-11s %6s %11s %10s %8s\n", "seed", "scans", "ATE final m", "ATE live m", "closures");
   const std::vector<CopyResult> results = run_copies(open, reference, options.plan, print_copy);
+  if (options.keep) keep_trajectories(results, *options.keep);
   const bool narrow_final = print_spread("final", results, &CopyResult::final_m, options.tolerance);
   const bool narrow_live = print_spread("live", results, &CopyResult::live_m, options.tolerance);
   return narrow_final && narrow_live ? 0 : kFailed;

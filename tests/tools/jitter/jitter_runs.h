@@ -29,6 +29,7 @@ struct CopyResult {
   double final_m = 0.0;  ///< absolute error of the trajectory as known at the end
   double live_m = 0.0;   ///< and as known at the time
   std::uint64_t closures = 0;
+  std::vector<StampedPose> trajectory;  ///< as known at the end
 };
 
 /// Opens the same recording anew, in any thread.

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "slam/loop_closer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <Eigen/LU>
+
+namespace dynslam {
+namespace {
+
+/// Maps that follow each other share scans: what they agree on says nothing new.
+constexpr std::uint32_t kNeighbours = 2;
+constexpr std::size_t kMostCandidates = 4;
+constexpr std::size_t kLookPoints = 100;  ///< of a map, to see how much of it another may know
+constexpr double kLeastShare = 0.3;
+
+/// The fit of a closure knows nothing of how the maps themselves are bent.
+constexpr double kClosureInflation = 4.0;
+constexpr double kClosureBend_m = 0.008;
+constexpr double kClosureBend_rad = 0.002;
+
+constexpr double kWindowSigmas = 3.0;
+/// Squared Mahalanobis distance from what the graph expects: five standard deviations are a contradiction.
+constexpr double kGate = 25.0;
+
+// Loops that contradict the graph: so many, from two places at least, must ask for the same correction.
+constexpr std::size_t kWitnesses = 3;
+constexpr std::size_t kMostClaims = 48;
+constexpr double kSameCorrection_m = 0.1;
+constexpr double kSameCorrection_rad = 0.02;
+
+constexpr std::size_t kMostRefused = 500;
+
+/// Whether a map knows anything within two cells: a wall is drawn thin, and rarely twice in the same place.
+bool is_known_around(const FinishedMap& map, CellIndex cell) {
+  std::uint64_t any = 0;
+  for (int dy = -2; dy <= 2; dy += 2) {
+    const CellIndex first{cell.x - 2, cell.y + dy};
+    any |= map.free.word(first) | map.occupied.word(first);
+  }
+  return (any & 0x1F) != 0;
+}
+
+/// Share of points, given in a frame at `origin_T_points`, of which a map knows something.
+double share_known(const FinishedMap& map, const Pose2& origin_T_points, const std::vector<Vector2>& points) {
+  const Pose2 drawn_T_points = map.drawn_T_origin * origin_T_points;
+  int known = 0;
+  for (const Vector2& p : points)
+    known += is_known_around(map, cell_at(drawn_T_points * p, map.cell_size_m)) ? 1 : 0;
+  return static_cast<double>(known) / static_cast<double>(points.size());
+}
+
+SearchWindow window_for(const Eigen::Matrix3d& covariance) {
+  SearchWindow window;
+  window.half_x_m = std::clamp(kWindowSigmas * std::sqrt(covariance(0, 0)), 0.15, 4.0);
+  window.half_y_m = std::clamp(kWindowSigmas * std::sqrt(covariance(1, 1)), 0.15, 4.0);
+  window.half_yaw_rad = std::clamp(kWindowSigmas * std::sqrt(covariance(2, 2)), radians(2), radians(20));
+  return window;
+}
+
+/// How a loop would move its source in the map.
+Pose2 correction_of(const PoseGraph& graph, std::uint32_t a, std::uint32_t b, const Pose2& a_T_b) {
+  return graph.pose(a) * a_T_b * graph.pose(b).inverse();
+}
+
+bool ask_for_the_same(const Pose2& one, const Pose2& other, const Vector2& at) {
+  return (one * at - other * at).norm() < kSameCorrection_m &&
+         std::abs(turn(one.yaw, other.yaw)) < kSameCorrection_rad;
+}
+
+}  // namespace
+
+int LoopCloser::close(std::shared_ptr<const FinishedMap> map) {
+  Known& source = maps_[map->id];
+  source.map = std::move(map);
+  for (const Vector2& p : source.map->outline) source.reach_m = std::max(source.reach_m, p.norm());
+  int added = 0;
+  for (const Candidate& candidate : candidates(source)) added += try_loop(*source.map, candidate);
+  return added;
+}
+
+void LoopCloser::forget(std::uint32_t id) {
+  maps_.erase(id);
+  std::erase_if(claims_, [id](const Claim& c) { return c.a == id || c.b == id; });
+}
+
+/// Maps that may show the same place, those first whose place relative to this one is least known for what
+/// they share.
+std::vector<LoopCloser::Candidate> LoopCloser::candidates(const Known& source) const {
+  std::vector<Candidate> found;
+  const std::uint32_t source_id = source.map->id;
+  const std::vector<Vector2> points = thin_out(source.map->outline, kLookPoints, 0.1);
+  if (points.empty()) return found;
+  const auto relatives = graph_.relatives_of(source_id);
+  for (const auto& [id, other] : maps_) {
+    if (id + kNeighbours > source_id || !relatives.contains(id)) continue;
+    const Pose2 guess = graph_.pose(id).inverse() * graph_.pose(source_id);
+    const RelativePose measured = inverse(relatives.at(id));
+    const double unsure_m = std::sqrt(measured.covariance(0, 0) + measured.covariance(1, 1));
+    if (guess.translation().norm() > source.reach_m + other.reach_m + unsure_m) continue;
+    const double share = share_known(*other.map, guess, points);
+    if (share < kLeastShare && unsure_m < 1.0) continue;
+    found.push_back({id, {guess, measured.covariance}, std::max(share, 0.1) * (0.01 + unsure_m)});
+  }
+  const auto keep = found.begin() + static_cast<std::ptrdiff_t>(std::min(found.size(), kMostCandidates));
+  std::partial_sort(found.begin(), keep, found.end(),
+                    [](const Candidate& a, const Candidate& b) { return a.worth > b.worth; });
+  found.erase(keep, found.end());
+  return found;
+}
+
+int LoopCloser::try_loop(const FinishedMap& source, const Candidate& candidate) {
+  const FinishedMap& target = *maps_.at(candidate.id).map;
+  const RelativePose& expected = candidate.target_T_source;
+  const SearchWindow window = window_for(turned(expected.covariance, target.drawn_T_origin.yaw));
+  const LoopMatch match = find_loop(MaxPyramid(target), target, source, expected.pose, window);
+  counters_.add("loops.searched");
+  const Claim claim{candidate.id,
+                    source.id,
+                    {match.target_T_source, kClosureInflation * Eigen::Matrix3d(match.information.inverse()) +
+                                                spread(kClosureBend_m, kClosureBend_rad)}};
+  if (const auto why = refusal(match)) {
+    refuse(claim, *why);
+    return 0;
+  }
+  const RelativePose both{claim.a_T_b.pose, claim.a_T_b.covariance + expected.covariance};
+  if (mahalanobis2(both, expected.pose) > kGate) return hear_claim(claim);
+  return add(claim) ? 1 : 0;
+}
+
+/// Takes a loop that contradicts the graph in, with those that say the same, once they are enough.
+int LoopCloser::hear_claim(const Claim& claim) {
+  const Vector2 at = graph_.pose(claim.b).translation();
+  const Pose2 wanted = correction_of(graph_, claim.a, claim.b, claim.a_T_b.pose);
+  std::vector<Claim> same{claim};
+  std::set<std::uint32_t> places{claim.b};
+  for (const Claim& other : claims_) {
+    if (!ask_for_the_same(wanted, correction_of(graph_, other.a, other.b, other.a_T_b.pose), at)) continue;
+    same.push_back(other);
+    places.insert(other.b);
+  }
+  claims_.push_back(claim);
+  if (claims_.size() > kMostClaims) claims_.pop_front();
+  if (same.size() < kWitnesses || places.size() < 2) {
+    refuse(claim, "inconsistent");
+    return 0;
+  }
+  int added = 0;
+  for (const Claim& c : same) added += add(c) ? 1 : 0;
+  counters_.add("loops.claims_believed", static_cast<std::uint64_t>(added));
+  std::erase_if(claims_, [&](const Claim& c) {
+    return std::any_of(same.begin(), same.end(), [&](const Claim& s) { return s.a == c.a && s.b == c.b; });
+  });
+  return added;
+}
+
+bool LoopCloser::add(const Claim& claim) {
+  if (!graph_.add_loop_edge(claim.a, claim.b, claim.a_T_b.pose, claim.a_T_b.covariance)) return false;
+  ++closures_;
+  return true;
+}
+
+void LoopCloser::refuse(const Claim& claim, std::string_view why) {
+  counters_.add("loops.refused." + std::string(why));
+  refused_.push_back({claim.a, claim.b, claim.a_T_b.pose, std::string(why)});
+  if (refused_.size() > kMostRefused) refused_.pop_front();
+}
+
+}  // namespace dynslam

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/counters.h"
+#include "slam/finished_map.h"
+#include "slam/loop_search.h"
+#include "slam/pose_graph.h"
+
+namespace dynslam {
+
+/// A loop that was found and not believed, for the picture of the graph.
+struct RefusedLoop {
+  std::uint32_t a = 0, b = 0;
+  Pose2 a_T_b;  ///< where it would have put b; meaningless when nothing was found
+  std::string reason;
+};
+
+/// Looks for places seen before and decides which loops become constraints: those that the match itself
+/// supports (see refusal()) and that agree with what the graph allows; or, where they do not, that agree with
+/// each other: odometry may have slipped, but several loops from several places do not ask for the same
+/// correction by chance. One thread.
+class LoopCloser {
+ public:
+  explicit LoopCloser(PoseGraph& graph) : graph_(graph) {}
+
+  /// Puts in the newest map, whose node is in the graph, and closes its loops with those before. Returns how
+  /// many constraints were added.
+  int close(std::shared_ptr<const FinishedMap> map);
+  /// Forgets a map that was retired.
+  void forget(std::uint32_t id);
+
+  std::uint64_t closures() const { return closures_; }
+  const Counters& counters() const { return counters_; }
+  /// The last few hundred, oldest first.
+  const std::deque<RefusedLoop>& refused() const { return refused_; }
+
+ private:
+  struct Known {
+    std::shared_ptr<const FinishedMap> map;
+    double reach_m = 0.0;  ///< of its farthest surface from its origin
+  };
+  struct Candidate {
+    std::uint32_t id = 0;
+    RelativePose target_T_source;  ///< as the graph has it
+    double worth = 0.0;
+  };
+  /// A loop that contradicts the graph and waits for others that say the same.
+  struct Claim {
+    std::uint32_t a = 0, b = 0;
+    RelativePose a_T_b;
+  };
+
+  std::vector<Candidate> candidates(const Known& source) const;
+  int try_loop(const FinishedMap& source, const Candidate& candidate);
+  int hear_claim(const Claim& claim);
+  bool add(const Claim& claim);
+  void refuse(const Claim& claim, std::string_view why);
+
+  PoseGraph& graph_;
+  std::map<std::uint32_t, Known> maps_;
+  std::deque<Claim> claims_;
+  std::deque<RefusedLoop> refused_;
+  std::uint64_t closures_ = 0;
+  Counters counters_;
+};
+
+}  // namespace dynslam
