@@ -27,8 +27,9 @@ constexpr double kMostBlind_m = 1.0;
 /// When less of the scan lies on what the map holds, the prior is doubted; it is set aside for an answer that
 /// fits so much better.
 constexpr double kPoorlyMatched = 0.65;
+constexpr double kPoorScore = 0.65;  ///< of the usual
 constexpr double kClearlyBetter = 0.2;
-/// How fast the usual hit follows the scans.
+/// How fast the usual hit and score follow the scans.
 constexpr double kUsualShare = 0.2;
 
 /// What a scan has to offer for matching: its hits, in the robot's frame and in cells.
@@ -153,7 +154,7 @@ void FrontEnd::note_match(const Fix& fix) {
   complete_all();
   unmatched_in_a_row_ = 0;
   last_matched_ = fix.map_T_robot;
-  usual_hit_ = 0.0;
+  usual_hit_ = usual_score_ = 0.0;
 }
 
 /// Only what is known to be in its place is drawn, and no scan that was smeared by a fast turn.
@@ -190,7 +191,7 @@ FrontEnd::Fix FrontEnd::locate(const CorrectedScan& scan) {
   Fix fix;
   fix.match = match(prior);
   if (motion_.wheels_leap(scan.reference)) look_along_wheels(scan.reference, fix);
-  if (fix.match.matched < kPoorlyMatched) look_about(scan.reference, fix);
+  if (is_doubtful(fix.match)) look_about(scan.reference, fix);
   fix.matched = is_believable(fix.match);
   fix.map_T_robot = fix.matched ? fix.match.map_T_robot : prior.map_T_robot;
   if (!is_within(fix.map_T_robot, kFarthest_m)) {
@@ -198,8 +199,19 @@ FrontEnd::Fix FrontEnd::locate(const CorrectedScan& scan) {
     fix.map_T_robot = motion_.last_pose();
     fix.matched = false;
   }
-  if (fix.matched) usual_hit_ += (usual_hit_ == 0 ? 1.0 : kUsualShare) * (fix.match.mean_hit - usual_hit_);
+  if (fix.matched) note_usual(fix.match);
   return fix;
+}
+
+/// Less of the scan lies on the map than should, or it lies there worse than the scans before.
+bool FrontEnd::is_doubtful(const MatchResult& match) const {
+  return match.matched < kPoorlyMatched || match.score < kPoorScore * usual_score_;
+}
+
+void FrontEnd::note_usual(const MatchResult& match) {
+  const double share = usual_hit_ == 0 ? 1.0 : kUsualShare;
+  usual_hit_ += share * (match.mean_hit - usual_hit_);
+  usual_score_ += share * (match.score - usual_score_);
 }
 
 MatchResult FrontEnd::match(MatchPrior prior) {

@@ -82,6 +82,8 @@ class FrontEnd {
   Fix first_fix(Time t);
   Fix locate(const CorrectedScan& scan);
   MatchResult match(MatchPrior prior);
+  bool is_doubtful(const MatchResult& match) const;
+  void note_usual(const MatchResult& match);
   void look_along_wheels(Time t, Fix& fix);
   void look_about(Time t, Fix& fix);
   void note_match(const Fix& fix);
@@ -106,6 +108,7 @@ class FrontEnd {
   std::deque<LocalMap> complete_;    ///< not yet taken
   std::uint32_t next_id_ = 0;
   Pose2 last_counted_;
+  double usual_score_ = 0.0;  ///< of the scans before, on the same map
   double usual_hit_ = 0.0;  ///< see MatchPrior
   int unmatched_in_a_row_ = 0;
   Pose2 last_matched_;
