@@ -30,7 +30,7 @@ void BackEnd::finish(const LocalMap& map) {
   auto finished = std::make_shared<const FinishedMap>(clean_up(map, map.id, map.ended));
   add_node(map);
   maps_[map.id] = finished;
-  const bool closed = loops_.close(finished) > 0;
+  const bool closed = loops_.close(finished);
   global_map_.place(finished, graph_.pose(map.id));
   if (closed) settle();
   global_map_.redraw(kBlocksATurn);

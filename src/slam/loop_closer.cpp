@@ -32,6 +32,9 @@ constexpr std::size_t kMostClaims = 48;
 constexpr double kSameCorrection_m = 0.1;
 constexpr double kSameCorrection_rad = 0.02;
 
+constexpr double kWideShare = 0.4;
+constexpr SearchWindow kWideWindow{1.0, 1.0, radians(12)};
+
 constexpr std::size_t kMostRefused = 500;
 
 /// Whether a map knows anything within two cells: a wall is drawn thin, and rarely twice in the same place.
@@ -73,13 +76,29 @@ bool ask_for_the_same(const Pose2& one, const Pose2& other, const Vector2& at) {
 
 }  // namespace
 
-int LoopCloser::close(std::shared_ptr<const FinishedMap> map) {
+bool LoopCloser::close(std::shared_ptr<const FinishedMap> map) {
   Known& source = maps_[map->id];
   source.map = std::move(map);
   for (const Vector2& p : source.map->outline) source.reach_m = std::max(source.reach_m, p.norm());
-  int added = 0;
-  for (const Candidate& candidate : candidates(source)) added += try_loop(*source.map, candidate);
-  return added;
+  const std::uint64_t before = closures_;
+  const std::vector<Candidate> likely = candidates(source);
+  for (const Candidate& c : likely) {
+    const double yaw = maps_.at(c.id).map->drawn_T_origin.yaw;
+    try_loop(*source.map, c, window_for(turned(c.target_T_source.covariance, yaw)));
+  }
+  if (closures_ == before) look_about(*source.map, likely);
+  return closures_ > before;
+}
+
+/// A place that should have been known again was not: odometry may have slipped by more than it owns to. The
+/// one of the candidates that should know most of the source is searched widely.
+void LoopCloser::look_about(const FinishedMap& source, const std::vector<Candidate>& candidates) {
+  const auto best =
+      std::max_element(candidates.begin(), candidates.end(),
+                       [](const Candidate& a, const Candidate& b) { return a.share < b.share; });
+  if (best == candidates.end() || best->share < kWideShare) return;
+  counters_.add("loops.searched_widely");
+  try_loop(source, *best, kWideWindow);
 }
 
 void LoopCloser::forget(std::uint32_t id) {
@@ -103,7 +122,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::candidates(const Known& source) c
     if (guess.translation().norm() > source.reach_m + other.reach_m + unsure_m) continue;
     const double share = share_known(*other.map, guess, points);
     if (share < kLeastShare && unsure_m < 1.0) continue;
-    found.push_back({id, {guess, measured.covariance}, std::max(share, 0.1) * (0.01 + unsure_m)});
+    found.push_back({id, {guess, measured.covariance}, share, std::max(share, 0.1) * (0.01 + unsure_m)});
   }
   const auto keep = found.begin() + static_cast<std::ptrdiff_t>(std::min(found.size(), kMostCandidates));
   std::partial_sort(found.begin(), keep, found.end(),
@@ -112,27 +131,23 @@ std::vector<LoopCloser::Candidate> LoopCloser::candidates(const Known& source) c
   return found;
 }
 
-int LoopCloser::try_loop(const FinishedMap& source, const Candidate& candidate) {
+void LoopCloser::try_loop(const FinishedMap& source, const Candidate& candidate, const SearchWindow& window) {
   const FinishedMap& target = *maps_.at(candidate.id).map;
   const RelativePose& expected = candidate.target_T_source;
-  const SearchWindow window = window_for(turned(expected.covariance, target.drawn_T_origin.yaw));
   const LoopMatch match = find_loop(MaxPyramid(target), target, source, expected.pose, window);
   counters_.add("loops.searched");
   const Claim claim{candidate.id,
                     source.id,
                     {match.target_T_source, kClosureInflation * Eigen::Matrix3d(match.information.inverse()) +
                                                 spread(kClosureBend_m, kClosureBend_rad)}};
-  if (const auto why = refusal(match)) {
-    refuse(claim, *why);
-    return 0;
-  }
+  if (const auto why = refusal(match)) return refuse(claim, *why);
   const RelativePose both{claim.a_T_b.pose, claim.a_T_b.covariance + expected.covariance};
   if (mahalanobis2(both, expected.pose) > kGate) return hear_claim(claim);
-  return add(claim) ? 1 : 0;
+  add(claim);
 }
 
 /// Takes a loop that contradicts the graph in, with those that say the same, once they are enough.
-int LoopCloser::hear_claim(const Claim& claim) {
+void LoopCloser::hear_claim(const Claim& claim) {
   const Vector2 at = graph_.pose(claim.b).translation();
   const Pose2 wanted = correction_of(graph_, claim.a, claim.b, claim.a_T_b.pose);
   std::vector<Claim> same{claim};
@@ -144,23 +159,16 @@ int LoopCloser::hear_claim(const Claim& claim) {
   }
   claims_.push_back(claim);
   if (claims_.size() > kMostClaims) claims_.pop_front();
-  if (same.size() < kWitnesses || places.size() < 2) {
-    refuse(claim, "inconsistent");
-    return 0;
-  }
-  int added = 0;
-  for (const Claim& c : same) added += add(c) ? 1 : 0;
-  counters_.add("loops.claims_believed", static_cast<std::uint64_t>(added));
+  if (same.size() < kWitnesses || places.size() < 2) return refuse(claim, "inconsistent");
+  counters_.add("loops.claims_believed", same.size());
+  for (const Claim& c : same) add(c);
   std::erase_if(claims_, [&](const Claim& c) {
     return std::any_of(same.begin(), same.end(), [&](const Claim& s) { return s.a == c.a && s.b == c.b; });
   });
-  return added;
 }
 
-bool LoopCloser::add(const Claim& claim) {
-  if (!graph_.add_loop_edge(claim.a, claim.b, claim.a_T_b.pose, claim.a_T_b.covariance)) return false;
-  ++closures_;
-  return true;
+void LoopCloser::add(const Claim& claim) {
+  if (graph_.add_loop_edge(claim.a, claim.b, claim.a_T_b.pose, claim.a_T_b.covariance)) ++closures_;
 }
 
 void LoopCloser::refuse(const Claim& claim, std::string_view why) {

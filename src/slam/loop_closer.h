@@ -30,9 +30,9 @@ class LoopCloser {
  public:
   explicit LoopCloser(PoseGraph& graph) : graph_(graph) {}
 
-  /// Puts in the newest map, whose node is in the graph, and closes its loops with those before. Returns how
-  /// many constraints were added.
-  int close(std::shared_ptr<const FinishedMap> map);
+  /// Puts in the newest map, whose node is in the graph, and closes its loops with those before. Returns
+  /// whether constraints were added.
+  bool close(std::shared_ptr<const FinishedMap> map);
   /// Forgets a map that was retired.
   void forget(std::uint32_t id);
 
@@ -49,6 +49,7 @@ class LoopCloser {
   struct Candidate {
     std::uint32_t id = 0;
     RelativePose target_T_source;  ///< as the graph has it
+    double share = 0.0;            ///< of the source's points of which the target knows something
     double worth = 0.0;
   };
   /// A loop that contradicts the graph and waits for others that say the same.
@@ -58,9 +59,10 @@ class LoopCloser {
   };
 
   std::vector<Candidate> candidates(const Known& source) const;
-  int try_loop(const FinishedMap& source, const Candidate& candidate);
-  int hear_claim(const Claim& claim);
-  bool add(const Claim& claim);
+  void try_loop(const FinishedMap& source, const Candidate& candidate, const SearchWindow& window);
+  void look_about(const FinishedMap& source, const std::vector<Candidate>& candidates);
+  void hear_claim(const Claim& claim);
+  void add(const Claim& claim);
   void refuse(const Claim& claim, std::string_view why);
 
   PoseGraph& graph_;
