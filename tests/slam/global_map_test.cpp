@@ -18,22 +18,36 @@ std::shared_ptr<const FinishedMap> drawn(std::uint32_t id, const std::vector<std
                                          CellIndex low = {}) {
   auto map = std::make_shared<FinishedMap>();
   map->id = id;
-  map->free.reset({{-2, -2}, {2, 2}});
-  map->occupied.reset({{-2, -2}, {2, 2}});
+  map->ended = time_at_s(id);
+  CellBitmap free, occupied;
+  free.reset({{-2, -2}, {2, 2}});
+  occupied.reset({{-2, -2}, {2, 2}});
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (std::size_t c = 0; c < rows[r].size(); ++c) {
       const CellIndex cell{low.x + static_cast<int>(c), low.y + static_cast<int>(rows.size() - 1 - r)};
-      if (rows[r][c] == '.') map->free.set(cell);
-      if (rows[r][c] == '#') map->occupied.set(cell);
+      if (rows[r][c] == '.') free.set(cell);
+      if (rows[r][c] == '#') occupied.set(cell);
     }
   }
+  map->free = TiledBitmap(free);
+  map->occupied = TiledBitmap(occupied);
   return map;
 }
 
-std::vector<std::string> picture(GlobalMap& map, int width, int height, CellIndex low = {}) {
-  EXPECT_EQ(map.redraw(kAll), 0U);
-  return drawing_of(map.grid(), low, width, height);
-}
+/// A global map and the grid that shows it, as a robot has them.
+class ShownMap {
+ public:
+  GlobalMap map{0.02};
+
+  std::vector<std::string> picture(int width, int height, CellIndex low = {}) {
+    EXPECT_EQ(map.redraw(kAll), 0U);
+    for (const DrawnChunk& c : map.publish()) grid_.show(c.index, c.free, c.occupied);
+    return drawing_of(grid_, low, width, height);
+  }
+
+ private:
+  ChunkedGrid grid_{0.02, 4096};
+};
 
 using Rows = std::vector<std::string>;
 
