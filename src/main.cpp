@@ -46,6 +46,9 @@ int run(int argc, char** argv) {
   replay->add_option("--out", options.out, "folder for map, trajectory and report")
       ->type_name("DIR")
       ->capture_default_str();
+  replay->add_option("--frames", options.frames, "also a picture of the map after every N scans")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000000));
   replay->add_flag("--quiet", options.quiet, "no progress and no summary");
   common.add_to(*replay, "--config");
 

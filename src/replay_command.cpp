@@ -70,17 +70,32 @@ nlohmann::json report(const ReplayResult& result) {
           {"counters", counters}};
 }
 
+std::vector<Vector2> path_of(const std::vector<StampedPose>& poses) {
+  std::vector<Vector2> path;
+  path.reserve(poses.size());
+  for (const StampedPose& p : poses) path.push_back(p.map_T_robot.translation());
+  return path;
+}
+
+/// Numbers that sort as they count.
+std::string frame_name(std::uint64_t scans) {
+  const std::string digits = std::to_string(scans);
+  return "frame-" + std::string(digits.size() < 7 ? 7 - digits.size() : 0, '0') + digits + ".png";
+}
+
 void write_results(OutputFolder& out, ReplayResult& result) {
   const nlohmann::json figures = report(result);
   out.stage("trajectory.tum", to_tum(result.trajectory));
   out.stage("trajectory_live.tum", to_tum(result.trajectory_live));
   MapPictureLayers layers;
-  for (const StampedPose& p : result.trajectory) layers.path_map.push_back(p.map_T_robot.translation());
+  layers.path_map = path_of(result.trajectory);
   const TrinaryMap map = trinary_map(result.map);
   result.map = {};  // the cells were copied: on a small computer the memory is better used for the picture
   out.stage("map.pgm", [&](const ByteSink& sink) { write_pgm(map, sink); });
   out.stage("map.yaml", to_map_yaml(map, "map.pgm"));
   out.stage("map.png", to_png(map, layers));
+  result.graph.path_map = std::move(layers.path_map);
+  out.stage("graph.svg", to_svg(result.graph, map));
   out.stage("report.json", figures.dump(2) + "\n");
   out.commit();
 }
@@ -102,8 +117,12 @@ int run_replay(const ReplayOptions& options, const Config& config) {
   ReplayResult result;
   {
     ProgressBar bar(!options.quiet);
-    result =
-        replay(*recording, config.slam, [&](double share, std::uint64_t scans) { bar.show(share, scans); });
+    const ReplayFrames frames{options.frames,
+                              [&](std::uint64_t scans, const GridSnapshot& map, const auto& path) {
+                                out.stage(frame_name(scans), to_png(trinary_map(map), {path_of(path)}));
+                              }};
+    result = replay(
+        *recording, config.slam, [&](double share, std::uint64_t scans) { bar.show(share, scans); }, frames);
   }
   const auto& damage = recording->damage();
   if (result.inserted == 0) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "config.h"
@@ -11,6 +12,7 @@ struct ReplayOptions {
   std::string recording;
   std::string out = "out";
   bool quiet = false;
+  std::uint64_t frames = 0;  ///< a picture after every so many scans; 0: none
 };
 
 /// `dynslam replay`: a recording in; trajectory, map, picture and report out. Returns the exit code: 0, or 2

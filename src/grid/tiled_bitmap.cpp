@@ -73,6 +73,21 @@ std::uint64_t TiledBitmap::word(CellIndex first) const {
   return shift == 0 ? left : left | tile({chunk.x + 1, chunk.y})[row_of(first)] << (kChunkSide - shift);
 }
 
+void TiledBitmap::words(CellIndex first, std::span<std::uint64_t> rows) const {
+  const int shift = first.x & kChunkMask;
+  for (std::size_t done = 0; done < rows.size();) {
+    const CellIndex at{first.x, first.y + static_cast<std::int32_t>(done)};
+    const CellTile& left = tile(chunk_of(at));
+    const CellTile& right = tile({chunk_of(at).x + 1, chunk_of(at).y});
+    const std::size_t low = row_of(at), n = std::min(rows.size() - done, kChunkSide - low);
+    for (std::size_t r = 0; r < n; ++r) {
+      const std::uint64_t beyond = shift == 0 ? 0 : right[low + r] << (kChunkSide - shift);
+      rows[done + r] = left[low + r] >> shift | beyond;
+    }
+    done += n;
+  }
+}
+
 CellBox TiledBitmap::bounds() const {
   constexpr auto kMost = std::numeric_limits<std::int32_t>::max();
   CellBox bounds{{kMost, kMost}, {-kMost, -kMost}};

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "grid/cell_bitmap.h"
@@ -27,6 +28,8 @@ class TiledBitmap {
   /// 64 cells of a row from `first` on, which need not be the first of a chunk: bit b is the cell b to the
   /// right of it.
   std::uint64_t word(CellIndex first) const;
+  /// The same for as many rows upwards as there are words; much faster than one at a time.
+  void words(CellIndex first, std::span<std::uint64_t> rows) const;
   /// All clear outside of box().
   const CellTile& tile(ChunkIndex chunk) const;
 

@@ -48,33 +48,69 @@ class StageClock : public StageWatch {
   std::vector<float> scan_ms_;
 };
 
+std::vector<StampedPose> poses_of(const Slam& slam) {
+  std::vector<StampedPose> poses;
+  for (const StampedFix& fix : slam.trajectory()) poses.push_back({fix.stamp, fix.map_T_robot});
+  return poses;
+}
+
 /// Works off what is ready and notes it.
-void work_off(Slam& slam, bool at_end, ReplayResult& result) {
+void work_off(Slam& slam, bool at_end, const ReplayFrames& frames, ReplayResult& result) {
   while (const auto scan = slam.next(at_end)) {
     result.trajectory_live.push_back({scan->stamp, scan->map_T_robot});
     result.inserted += scan->inserted ? 1 : 0;
+    const std::uint64_t scans = result.trajectory_live.size();
+    if (frames.every > 0 && scans % frames.every == 0)
+      frames.show(scans, slam.global_map().snapshot(), poses_of(slam));
   }
+}
+
+PicturedEdge::Kind kind_of(EdgeKind kind) {
+  switch (kind) {
+    case EdgeKind::kLoop:
+      return PicturedEdge::Kind::kLoop;
+    case EdgeKind::kTurn:
+      return PicturedEdge::Kind::kTurn;
+    default:
+      return PicturedEdge::Kind::kOdometry;
+  }
+}
+
+GraphPicture picture_of(const BackEnd& back_end) {
+  GraphPicture picture;
+  for (const GraphNode& node : back_end.graph().nodes())
+    picture.maps.push_back({node.id, node.map_T_node, true});
+  for (const std::uint32_t id : back_end.retired())
+    picture.maps.push_back({id, back_end.map_T_origin(id), false});
+  for (const GraphEdge& e : back_end.graph().edges())
+    picture.edges.push_back({kind_of(e.kind), e.a, e.b, e.residual});
+  for (const RefusedLoop& r : back_end.loops().refused())
+    picture.refused.push_back({r.a, r.b, r.a_T_b, r.reason});
+  return picture;
 }
 
 }  // namespace
 
-ReplayResult replay(Recording& recording, const SlamConfig& config, const ReplayProgress& progress) {
+ReplayResult replay(Recording& recording, const SlamConfig& config, const ReplayProgress& progress,
+                    const ReplayFrames& frames) {
   const Clock::time_point begun = Clock::now();
   const double cpu_before = cpu_seconds();
   ReplayResult result;
   StageClock watch;
   Slam slam(config, &watch);
+  if (frames.every > 0) slam.follow();
   std::uint64_t records = 0;
   while (auto record = recording.next()) {
     std::visit([&](auto&& sample) { slam.add(std::forward<decltype(sample)>(sample)); }, std::move(*record));
-    work_off(slam, false, result);
+    work_off(slam, false, frames, result);
     if (++records % 64 == 0) progress(recording.progress(), result.trajectory_live.size());
   }
-  work_off(slam, true, result);
+  work_off(slam, true, frames, result);
   slam.finish();
   progress(1.0, result.trajectory_live.size());
 
-  for (const StampedFix& fix : slam.trajectory()) result.trajectory.push_back({fix.stamp, fix.map_T_robot});
+  result.trajectory = poses_of(slam);
+  result.graph = picture_of(slam.back_end());
   result.loop_closures = slam.back_end().loops().closures();
   result.map = slam.global_map().snapshot();
   result.map_bytes = slam.global_map().bytes();

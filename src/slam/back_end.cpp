@@ -2,6 +2,7 @@
 #include "slam/back_end.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "slam/clean_up.h"
@@ -20,21 +21,48 @@ constexpr double kDrift_radpm = 0.002;  ///< for each metre of it
 constexpr double kLost_m = 0.6;
 constexpr double kLost_rad = 0.3;
 
-constexpr std::size_t kBlocksATurn = 400;
+// The IMU's heading from one map to the next.
+constexpr double kTurn_rad = 0.01;
+constexpr double kTurnDrift_radps = 0.0005;
+
+constexpr std::size_t kBlocksATurn = 150;
 
 }  // namespace
 
 BackEnd::BackEnd(const SlamConfig& config) : loops_(graph_), global_map_(config.cell_size_m) {}
 
 void BackEnd::finish(const LocalMap& map) {
+  drop_preview();
   auto finished = std::make_shared<const FinishedMap>(clean_up(map, map.id, map.ended));
   add_node(map);
+  last_heading_rad_ = map.imu_heading_rad;
   maps_[map.id] = finished;
   const bool closed = loops_.close(finished);
   global_map_.place(finished, graph_.pose(map.id));
   if (closed) settle();
   global_map_.redraw(kBlocksATurn);
   retire_unneeded(map.id);
+}
+
+void BackEnd::preview(const LocalMap& map) {
+  drop_preview();
+  const auto so_far = std::make_shared<const FinishedMap>(clean_up(map, map.id, map.ended));
+  global_map_.place(so_far, map_T_drawn(map.id) * map.map_T_origin);
+  preview_ = map.id;
+}
+
+void BackEnd::drop_preview() {
+  if (preview_) global_map_.remove(*preview_);
+  preview_.reset();
+}
+
+std::vector<DrawnChunk> BackEnd::draw() {
+  global_map_.redraw(std::numeric_limits<std::size_t>::max());
+  return global_map_.publish();
+}
+
+bool BackEnd::knows_since(std::optional<std::uint32_t> local_map_id) const {
+  return local_map_id && loops_.reaches_over(*local_map_id);
 }
 
 /// Puts a map where the newest finished one says the drawn frame lies, and ties it to the one before.
@@ -54,6 +82,16 @@ void BackEnd::add_node(const LocalMap& map) {
                             spread(kBend_m + kDrift * between_m, kBend_rad + kDrift_radpm * between_m))
           : spread(kLost_m, kLost_rad);
   graph_.add_odometry_edge(before, map.id, before_T_this, covariance);
+  add_turn(before, map);
+}
+
+/// What the IMU says of the turn from map to map: it drifts, but it does not slip.
+void BackEnd::add_turn(std::uint32_t before, const LocalMap& map) {
+  if (map.imu_heading_rad && last_heading_rad_) {
+    const double seconds = std::abs(to_seconds(map.begun - maps_.at(before)->begun));
+    graph_.add_turn_edge(before, map.id, *map.imu_heading_rad - *last_heading_rad_,
+                         kTurn_rad + kTurnDrift_radps * seconds);
+  }
 }
 
 void BackEnd::settle() {
@@ -83,6 +121,13 @@ Counters BackEnd::counters() const {
   Counters all = counters_;
   for (const auto& [name, n] : loops_.counters()) all.add(name, n);
   return all;
+}
+
+std::vector<std::uint32_t> BackEnd::retired() const {
+  std::vector<std::uint32_t> ids;
+  ids.reserve(retired_.size());
+  for (const auto& [id, anchor] : retired_) ids.push_back(id);
+  return ids;
 }
 
 Pose2 BackEnd::map_T_origin(std::uint32_t id) const {

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "base/counters.h"
 #include "slam/finished_map.h"
@@ -25,12 +27,24 @@ class BackEnd {
   /// Takes in the next local map, in order of id.
   void finish(const LocalMap& map);
 
+  /// Shows what there is of the next one until it is complete.
+  void preview(const LocalMap& map);
+  /// Draws all that changed; returns the chunks that look different from when this was called last.
+  std::vector<DrawnChunk> draw();
+
+  /// Whether a place from before a local map was known again in it or later: false when nothing is asked for.
+  bool knows_since(std::optional<std::uint32_t> local_map_id) const;
+
   /// What is to be put before poses of the front end that were matched against a local map: map_T_drawn. For
   /// one that is not finished yet, that of the newest that is; for one that was retired, by the map that took
   /// its place.
   Pose2 map_T_drawn(std::uint32_t local_map_id) const;
 
-  GlobalMap& global_map() { return global_map_; }
+  /// The pose of a local map's origin, retired or not. REQUIRES: it was finished.
+  Pose2 map_T_origin(std::uint32_t id) const;
+  /// The ids of the retired ones.
+  std::vector<std::uint32_t> retired() const;
+
   const GlobalMap& global_map() const { return global_map_; }
   const PoseGraph& graph() const { return graph_; }
   const LoopCloser& loops() const { return loops_; }
@@ -44,15 +58,17 @@ class BackEnd {
     Pose2 drawn_T_origin;
   };
   void add_node(const LocalMap& map);
+  void add_turn(std::uint32_t before, const LocalMap& map);
+  void drop_preview();
   void settle();
   void retire_unneeded(std::uint32_t newest);
-  Pose2 map_T_origin(std::uint32_t id) const;
-
   PoseGraph graph_;
   LoopCloser loops_;
   GlobalMap global_map_;
   std::map<std::uint32_t, std::shared_ptr<const FinishedMap>> maps_;
   std::map<std::uint32_t, Anchor> retired_;
+  std::optional<std::uint32_t> preview_;
+  std::optional<double> last_heading_rad_;  ///< the IMU's, when the newest map was begun
   Counters counters_;
 };
 

@@ -117,7 +117,7 @@ bool FrontEnd::is_news(const Scan& scan) {
 
 FrontEndResult FrontEnd::process(const Scan& scan) {
   enter("passes");
-  const CorrectedScan corrected = correct(scan);
+  CorrectedScan corrected = correct(scan);
   choose_points(corrected, config_.cell_size_m, points_);
 
   enter("match");
@@ -128,21 +128,23 @@ FrontEndResult FrontEnd::process(const Scan& scan) {
   result.covariance = fix.match.covariance;
   result.score = fix.match.score;
   result.matched = fix.matched;
+  result.quality = quality(fix);
 
   enter("insert");
   note_match(fix);
   result.inserted = may_insert(scan, fix);
   motion_.fix(corrected.reference, fix.map_T_robot);
+  result.local_map_id = local_maps_.empty() ? next_id_ : local_maps_.front().id;
   if (result.inserted) {
     count_scan(fix, corrected.reference);
-    insert(corrected, fix.map_T_robot);
+    insert(std::move(corrected), fix.map_T_robot);
   }
-  result.local_map_id = local_maps_.empty() ? next_id_ : local_maps_.front().id;
+  result.lost = lost_since_.has_value();
   return result;
 }
 
-/// Counts scans that the map does not explain; after too many, or too long a way, a new map begins. A scan that
-/// shows nothing says nothing against the map.
+/// Counts scans that the map does not explain; after too many, or too long a way, a new map begins. A scan
+/// that shows nothing says nothing against the map.
 void FrontEnd::note_match(const Fix& fix) {
   if (!fix.matched) counters_.add("slam.scans_unmatched");
   if (points_.empty()) return;
@@ -150,11 +152,34 @@ void FrontEnd::note_match(const Fix& fix) {
   if (unmatched_in_a_row_ == 0) last_matched_ = fix.map_T_robot;
   const double blind_m = (fix.map_T_robot.translation() - last_matched_.translation()).norm();
   if (unmatched_in_a_row_ <= kMostUnmatched && blind_m <= kMostBlind_m) return;
+  lose();
+  last_matched_ = fix.map_T_robot;
+}
+
+/// Begins anew where motion sensors say the robot is. Whether that is right shows when a place from before is
+/// known again.
+void FrontEnd::lose() {
   counters_.add("slam.times_lost");
   complete_all();
+  if (!lost_since_) lost_since_ = next_id_;
   unmatched_in_a_row_ = 0;
-  last_matched_ = fix.map_T_robot;
   usual_hit_ = usual_score_ = 0.0;
+}
+
+void FrontEnd::found() {
+  counters_.add("slam.times_found");
+  lost_since_.reset();
+}
+
+/// The share of the scan that the map explains, as well as it usually does; less where it hardly knows the
+/// place, and little while the robot is lost.
+double FrontEnd::quality(const Fix& fix) const {
+  constexpr double kWellKnown = 0.3, kWhileLost = 0.3;
+  if (!fix.matched) return 0.0;
+  const MatchResult& m = fix.match;
+  if (usual_score_ <= 0) return lost_since_ ? kWhileLost : 1.0;  // the first of a map
+  const double as_usual = std::min(1.0, m.score / usual_score_), known = std::min(1.0, m.known / kWellKnown);
+  return m.matched * as_usual * known * (lost_since_ ? kWhileLost : 1.0);
 }
 
 /// Only what is known to be in its place is drawn, and no scan that was smeared by a fast turn.
@@ -162,6 +187,10 @@ bool FrontEnd::may_insert(const Scan& scan, const Fix& fix) {
   const bool takes_time = !scan.beams.empty() && scan.beams.back().time_s != scan.beams.front().time_s;
   if (takes_time && std::abs(motion_.yaw_rate(reference_time(scan))) > config_.skip_yaw_rate_radps) {
     counters_.add("slam.scans_skipped_turning");
+    return false;
+  }
+  if (takes_time && motion_.imu().tilt_rate(reference_time(scan)) > config_.skip_tilt_rate_radps) {
+    counters_.add("slam.scans_skipped_tilting");
     return false;
   }
   return (fix.matched || local_maps_.empty()) && !points_.empty();
@@ -241,6 +270,7 @@ void FrontEnd::begin_local_map(const Fix& fix, Time t) {
   local_maps_.emplace_back(config_.cell_size_m, static_cast<std::size_t>(config_.max_chunks), fix.map_T_robot,
                            t);
   local_maps_.back().id = next_id_++;
+  local_maps_.back().imu_heading_rad = motion_.imu().heading_at(t);
   local_maps_.back().origin_covariance = fix.match.covariance;
   local_maps_.back().is_tied = local_maps_.size() > 1;
 }
@@ -288,11 +318,21 @@ void FrontEnd::count_scan(const Fix& fix, Time t) {
   if (half && local_maps_.size() < 2) begin_local_map(fix, t);
 }
 
-void FrontEnd::insert(const CorrectedScan& scan, const Pose2& map_T_robot) {
-  const double max_wedge = std::min(2.5 * scan.beam_step_rad, radians(5.0));
-  const ScanFootprint& footprint =
-      free_space_.trace(map_T_robot * scan.robot_T_lidar, scan.ends_lidar, max_wedge, config_.cell_size_m);
+void FrontEnd::insert(CorrectedScan&& scan, const Pose2& map_T_robot) {
+  const ScanFootprint& footprint = trace(scan, map_T_robot);
   for (LocalMap& m : local_maps_) m.grid.apply(footprint);
+  last_drawn_ = {std::move(scan), map_T_robot};
+}
+
+const ScanFootprint& FrontEnd::trace(const CorrectedScan& scan, const Pose2& grid_T_robot) {
+  const double max_wedge = std::min(2.5 * scan.beam_step_rad, radians(5.0));
+  return free_space_.trace(grid_T_robot * scan.robot_T_lidar, scan.ends_lidar, max_wedge,
+                           config_.cell_size_m);
+}
+
+const ScanFootprint& FrontEnd::footprint_in(const Pose2& map_T_drawn) {
+  if (map_T_drawn == Pose2{}) return free_space_.footprint();
+  return trace(last_drawn_.scan, map_T_drawn * last_drawn_.drawn_T_robot);
 }
 
 /// The scan's pose is that of its middle; its stamp is that of its first beam, a few centimetres of way

@@ -28,6 +28,8 @@ struct FrontEndResult {
   std::uint32_t local_map_id = 0;  ///< of the map it was matched against
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double score = 0.0;     ///< as MatchResult; 1 for the first scan
+  double quality = 0.0;   ///< 0 to 1: how far the pose is to be trusted
+  bool lost = false;      ///< since the map no longer explained the scans, until found()
   bool matched = false;   ///< false: the map did not answer and the pose is what motion sensors say
   bool inserted = false;  ///< drawn into the local maps
 };
@@ -59,8 +61,13 @@ class FrontEnd {
   /// The maps at hand, oldest first.
   const std::deque<LocalMap>& local_maps() const { return local_maps_; }
 
-  /// The cells of the scan last drawn.
-  const ScanFootprint& footprint() const { return free_space_.footprint(); }
+  /// The cells of the scan last drawn, in a map in which the drawn frame has this pose. Until the next call.
+  const ScanFootprint& footprint_in(const Pose2& map_T_drawn);
+
+  /// The first local map begun after the robot was lost; nothing while it knows where it is.
+  std::optional<std::uint32_t> lost_since() const { return lost_since_; }
+  /// The robot was found: a place from before was known again.
+  void found();
   std::size_t local_maps_begun() const { return next_id_; }
   std::size_t waiting() const { return waiting_.size(); }
   /// Weather: what was skipped, smoothed, refused.
@@ -88,7 +95,10 @@ class FrontEnd {
   void look_about(Time t, Fix& fix);
   void note_match(const Fix& fix);
   bool may_insert(const Scan& scan, const Fix& fix);
-  void insert(const CorrectedScan& scan, const Pose2& map_T_robot);
+  double quality(const Fix& fix) const;
+  void lose();
+  void insert(CorrectedScan&& scan, const Pose2& map_T_robot);
+  const ScanFootprint& trace(const CorrectedScan& scan, const Pose2& grid_T_robot);
   void begin_local_map(const Fix& fix, Time t);
   void count_scan(const Fix& fix, Time t);
   Pose2 pose_at_stamp(const Scan& scan, const CorrectedScan& corrected, const Pose2& map_T_robot) const;
@@ -109,7 +119,13 @@ class FrontEnd {
   std::uint32_t next_id_ = 0;
   Pose2 last_counted_;
   double usual_score_ = 0.0;  ///< of the scans before, on the same map
-  double usual_hit_ = 0.0;  ///< see MatchPrior
+  double usual_hit_ = 0.0;    ///< see MatchPrior
+  std::optional<std::uint32_t> lost_since_;
+  struct Drawn {
+    CorrectedScan scan;
+    Pose2 drawn_T_robot;
+  };
+  Drawn last_drawn_;
   int unmatched_in_a_row_ = 0;
   Pose2 last_matched_;
   std::optional<Time> last_stamp_;

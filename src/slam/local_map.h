@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -32,7 +33,8 @@ struct LocalMap {
   Pose2 map_T_origin;
   /// Of map_T_origin, as the map before this one told it: m2, m rad, rad2. Meaningless unless is_tied.
   Eigen::Matrix3d origin_covariance = Eigen::Matrix3d::Zero();
-  bool is_tied = false;  ///< begun at a scan that was matched against the map before
+  bool is_tied = false;                   ///< begun at a scan that was matched against the map before
+  std::optional<double> imu_heading_rad;  ///< when it was begun, continuous
   Time begun, ended;
   int scans = 0;                         ///< that count: taken in motion
   double travel_m = 0.0;                 ///< since it was begun

@@ -106,6 +106,13 @@ void LoopCloser::forget(std::uint32_t id) {
   std::erase_if(claims_, [id](const Claim& c) { return c.a == id || c.b == id; });
 }
 
+bool LoopCloser::reaches_over(std::uint32_t id) const {
+  for (const GraphEdge& e : graph_.edges()) {
+    if (e.kind == EdgeKind::kLoop && e.a < id && e.b >= id) return true;
+  }
+  return false;
+}
+
 /// Maps that may show the same place, those first whose place relative to this one is least known for what
 /// they share.
 std::vector<LoopCloser::Candidate> LoopCloser::candidates(const Known& source) const {

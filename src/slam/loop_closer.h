@@ -37,6 +37,8 @@ class LoopCloser {
   void forget(std::uint32_t id);
 
   std::uint64_t closures() const { return closures_; }
+  /// Whether a constraint ties a map before `id` to `id` or a later one.
+  bool reaches_over(std::uint32_t id) const;
   const Counters& counters() const { return counters_; }
   /// The last few hundred, oldest first.
   const std::deque<RefusedLoop>& refused() const { return refused_; }

@@ -95,8 +95,10 @@ void MaxPyramid::measure(const FinishedMap& map) {
   if (!free.empty() || !occupied.empty()) {
     const CellBox& a = free.empty() ? occupied : free;
     const CellBox& b = occupied.empty() ? free : occupied;
-    // A surface reaches into the cells around it.
-    first_ = {base(std::min(a.min.x, b.min.x)) - 2, base(std::min(a.min.y, b.min.y)) - 2};
+    // A surface reaches into the cells around it. Words begin with chunks: so they are read as they are kept.
+    const int margin = 2 << map_cell_bits_;
+    first_ = {base((std::min(a.min.x, b.min.x) - margin) & ~kChunkMask),
+              base(std::min(a.min.y, b.min.y) - margin)};
     width = base(std::max(a.max.x, b.max.x)) - first_.x + 3;
     height = base(std::max(a.max.y, b.max.y)) - first_.y + 3;
     const ChunkBox box{{0, 0}, chunk_of({width - 1, height - 1})};

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "slam/slam.h"
 
-#include <limits>
+#include <utility>
 
 namespace dynslam {
+namespace {
+
+/// Chunks that the back end drew anew and that a scan lets into the map: some 0.3 ms.
+constexpr std::size_t kChunksATurn = 200;
+
+}  // namespace
 
 Slam::Slam(const SlamConfig& config, StageWatch* watch)
     : config_(config),
@@ -16,18 +22,17 @@ std::optional<ScanResult> Slam::next(bool at_end) {
   const auto fix = front_end_.next(at_end);
   if (!fix) return std::nullopt;
   visits_.push_back({fix->stamp, fix->local_map_id, fix->drawn_T_robot});
-  if (config_.close_loops) {
-    close_loops();
-  } else {
-    draw_live(*fix);
-  }
+  close_loops();
+  draw(*fix);
   enter("");
   ScanResult result;
   result.stamp = fix->stamp;
   result.map_T_robot = map_T_drawn_ * fix->drawn_T_robot;
   result.covariance = fix->covariance;
   result.score = fix->score;
+  result.quality = fix->quality;
   result.matched = fix->matched;
+  result.lost = fix->lost;
   result.inserted = fix->inserted;
   return result;
 }
@@ -35,33 +40,57 @@ std::optional<ScanResult> Slam::next(bool at_end) {
 /// Hands complete local maps to the back end, and lets what it found out reach the poses when that is due.
 void Slam::close_loops() {
   while (const auto complete = front_end_.take_complete()) {
+    if (!config_.close_loops) continue;  // nobody needs them
     enter("close loops");
-    back_end_.finish(*complete);
-    corrections_.push_back({visits_.size() + static_cast<std::size_t>(config_.correction_delay_scans),
-                            back_end_.map_T_drawn(complete->id)});
+    take_in(*complete);
   }
   while (!corrections_.empty() && corrections_.front().due <= visits_.size()) {
-    map_T_drawn_ = corrections_.front().map_T_drawn;
+    Correction& now = corrections_.front();
+    map_T_drawn_ = now.map_T_drawn;
+    waiting_chunks_.insert(waiting_chunks_.end(), now.chunks.begin(), now.chunks.end());
     corrections_.pop_front();
   }
 }
 
-void Slam::draw_live(const FrontEndResult& fix) {
-  while (front_end_.take_complete()) continue;  // nobody needs them
+void Slam::take_in(const LocalMap& complete) {
+  back_end_.finish(complete);
+  if (back_end_.knows_since(front_end_.lost_since())) front_end_.found();
+  Correction correction{visits_.size() + static_cast<std::size_t>(config_.correction_delay_scans),
+                        back_end_.map_T_drawn(complete.id),
+                        {}};
+  if (following_) {
+    if (!front_end_.local_maps().empty()) back_end_.preview(front_end_.local_maps().front());
+    correction.chunks = back_end_.draw();
+  }
+  corrections_.push_back(std::move(correction));
+}
+
+/// Keeps the map up with the scan: what the back end has drawn, and the scan on top of it.
+void Slam::draw(const FrontEndResult& fix) {
+  if (config_.close_loops && !following_) return;
   enter("draw");
-  if (fix.inserted) map_.apply(front_end_.footprint());
+  show(kChunksATurn);
+  if (fix.inserted) map_.apply(front_end_.footprint_in(map_T_drawn_));
 }
 
 void Slam::finish() {
   if (!config_.close_loops) return;
   front_end_.complete_all();
   while (const auto complete = front_end_.take_complete()) back_end_.finish(*complete);
-  back_end_.global_map().redraw(std::numeric_limits<std::size_t>::max());
-  show(back_end_.global_map().publish());
+  for (const Correction& c : corrections_)
+    waiting_chunks_.insert(waiting_chunks_.end(), c.chunks.begin(), c.chunks.end());
+  corrections_.clear();
+  const std::vector<DrawnChunk> chunks = back_end_.draw();
+  waiting_chunks_.insert(waiting_chunks_.end(), chunks.begin(), chunks.end());
+  show(waiting_chunks_.size());
 }
 
-void Slam::show(const std::vector<DrawnChunk>& chunks) {
-  for (const DrawnChunk& c : chunks) map_.show(c.index, c.free, c.occupied);
+void Slam::show(std::size_t most_chunks) {
+  for (; most_chunks > 0 && !waiting_chunks_.empty(); --most_chunks) {
+    const DrawnChunk& c = waiting_chunks_.front();
+    map_.show(c.index, c.free, c.occupied);
+    waiting_chunks_.pop_front();
+  }
 }
 
 std::vector<StampedFix> Slam::trajectory() const {

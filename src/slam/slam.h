@@ -18,7 +18,9 @@ struct ScanResult {
   Pose2 map_T_robot;  ///< at the stamp, as known now
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double score = 0.0;     ///< as MatchResult; 1 for the first scan
+  double quality = 0.0;   ///< 0 to 1: how far the pose is to be trusted
   bool matched = false;   ///< false: the map did not answer and the pose is what motion sensors say
+  bool lost = false;      ///< the robot does not know where in the map it is, until a place is known again
   bool inserted = false;  ///< drawn into the local maps
 };
 
@@ -42,13 +44,17 @@ class Slam {
   /// See FrontEnd::next.
   std::optional<ScanResult> next(bool at_end = false);
 
+  /// From now on the map follows every scan, for those who look at it on the way. Otherwise, with loop
+  /// closing, it is only drawn by finish().
+  void follow() { following_ = true; }
+
   /// Takes the unfinished local maps in and draws all there is. Nothing may be added after it.
   void finish();
 
   /// The best that is known now of where every scan was taken.
   std::vector<StampedFix> trajectory() const;
 
-  /// With loop closing: what finish() made. Without: every scan so far.
+  /// The map of everything: see follow().
   ChunkedGrid& global_map() { return map_; }
   const BackEnd& back_end() const { return back_end_; }
   std::size_t local_maps_begun() const { return front_end_.local_maps_begun(); }
@@ -68,10 +74,12 @@ class Slam {
   struct Correction {
     std::size_t due = 0;  ///< at this many scans
     Pose2 map_T_drawn;
+    std::vector<DrawnChunk> chunks;  ///< of the map that look different now
   };
   void close_loops();
-  void draw_live(const FrontEndResult& fix);
-  void show(const std::vector<DrawnChunk>& chunks);
+  void take_in(const LocalMap& complete);
+  void draw(const FrontEndResult& fix);
+  void show(std::size_t most_chunks);
   void enter(std::string_view stage) {
     if (watch_) watch_->enter(stage);
   }
@@ -80,7 +88,9 @@ class Slam {
   StageWatch* watch_;
   FrontEnd front_end_;
   BackEnd back_end_;
+  bool following_ = false;
   ChunkedGrid map_;
+  std::deque<DrawnChunk> waiting_chunks_;
   std::vector<Visit> visits_;
   std::deque<Correction> corrections_;
   Pose2 map_T_drawn_;  ///< as known to the poses

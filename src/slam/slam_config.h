@@ -14,10 +14,11 @@ struct SlamConfig {
   double trusted_range_m = 12.0;
   double min_range_m = 0.15;
   double skip_yaw_rate_radps = 3.0;
+  double skip_tilt_rate_radps = 1.0;
   int scans_per_local_map = 50;
   double travel_per_local_map_m = 8.0;
   double search_half_width_m = 0.1;
-  bool close_loops = false;
+  bool close_loops = true;
   int correction_delay_scans = 5;
   int max_chunks = 16384;
 
@@ -42,6 +43,8 @@ struct SlamConfig {
     visit(Field{"skip_yaw_rate_radps", "scans taken while turning faster are matched but not drawn", 0.1,
                 100.0},
           self.skip_yaw_rate_radps);
+    visit(Field{"skip_tilt_rate_radps", "and so are those taken while the robot tips faster", 0.05, 100.0},
+          self.skip_tilt_rate_radps);
     visit(
         Field{"scans_per_local_map", "a local map is complete after so many scans taken in motion", 4, 10000},
         self.scans_per_local_map);
@@ -50,8 +53,7 @@ struct SlamConfig {
     visit(Field{"search_half_width_m", "least half width of the square in which a scan is searched for", 0.02,
                 1.0},
           self.search_half_width_m);
-    visit(Field{"close_loops",
-                "recognise places seen before and straighten the map (costs more time and memory still)"},
+    visit(Field{"close_loops", "recognise places seen before and straighten the map; otherwise it drifts"},
           self.close_loops);
     visit(Field{"correction_delay_scans", "in a replay, a closed loop moves the pose so many scans later", 0,
                 1000},

@@ -15,12 +15,12 @@ constexpr int kRim = kWall + 2;
 class Patch {
  public:
   Patch(const FinishedMap& map, CellIndex low, int rows) : rows_(rows) {
-    for (int r = 0; r < rows_; ++r) {
-      const auto i = static_cast<std::size_t>(r);
-      free_[i] = map.free.word({low.x, low.y + r});
-      occupied_[i] = map.occupied.word({low.x, low.y + r});
-      any_ |= free_[i] | occupied_[i];
-      any_occupied_ |= occupied_[i];
+    const auto n = static_cast<std::size_t>(rows);
+    map.free.words(low, {free_.data(), n});
+    map.occupied.words(low, {occupied_.data(), n});
+    for (std::size_t r = 0; r < n; ++r) {
+      any_ |= free_[r] | occupied_[r];
+      any_occupied_ |= occupied_[r];
     }
     near_ = occupied_;
     for (int step = 0; any_occupied_ != 0 && step < kWall; ++step) grow_near();
