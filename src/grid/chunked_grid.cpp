@@ -112,12 +112,12 @@ void ChunkedGrid::show(ChunkIndex index, const CellTile& free, const CellTile& o
   }
 }
 
-void ChunkedGrid::apply(const ScanFootprint& footprint) {
-  const ChunkBox& box = footprint.misses.box();
+void ChunkedGrid::apply(const CellBitmap& misses, std::span<const CellIndex> hits) {
+  const ChunkBox& box = misses.box();
   for (std::int32_t y = box.min.y; y <= box.max.y; ++y) {
-    for (std::int32_t x = box.min.x; x <= box.max.x; ++x) apply_misses(footprint.misses, {x, y});
+    for (std::int32_t x = box.min.x; x <= box.max.x; ++x) apply_misses(misses, {x, y});
   }
-  for (const CellIndex c : footprint.hits) add_hit(c);
+  for (const CellIndex c : hits) add_hit(c);
 }
 
 void ChunkedGrid::apply_misses(const CellBitmap& misses, ChunkIndex index) {

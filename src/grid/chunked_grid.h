@@ -71,7 +71,8 @@ class ChunkedGrid {
   /// Makes the cells of a chunk as sure as can be of what they are, and forgets those in neither set.
   void show(ChunkIndex index, const CellTile& free, const CellTile& occupied);
   /// All of a scan at once. Same result as add_hit and add_miss on each of its cells.
-  void apply(const ScanFootprint& footprint);
+  void apply(const ScanFootprint& footprint) { apply(footprint.misses, footprint.hits); }
+  void apply(const CellBitmap& misses, std::span<const CellIndex> hits);
 
   /// The map as it is now, without copying cells. Costs a copy of the table; chunks written later are cloned
   /// first.

@@ -46,8 +46,9 @@ void BackEnd::finish(const LocalMap& map) {
 
 void BackEnd::preview(const LocalMap& map) {
   drop_preview();
+  global_map_.redraw(std::numeric_limits<std::size_t>::max());  // names are only taken out without it
   const auto so_far = std::make_shared<const FinishedMap>(clean_up(map, map.id, map.ended));
-  global_map_.place(so_far, map_T_drawn(map.id) * map.map_T_origin);
+  global_map_.place_for_now(so_far, map_T_drawn(map.id) * map.map_T_origin);
   preview_ = map.id;
 }
 

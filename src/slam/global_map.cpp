@@ -71,6 +71,11 @@ void GlobalMap::place(std::shared_ptr<const FinishedMap> map, const Pose2& map_T
   name_all(id, placed);
 }
 
+void GlobalMap::place_for_now(std::shared_ptr<const FinishedMap> map, const Pose2& map_T_origin) {
+  passing_ = map->id;
+  place(std::move(map), map_T_origin);
+}
+
 void GlobalMap::move(const std::map<std::uint32_t, Pose2>& map_T_origins) {
   const double least_m = 0.25 * cell_size_m_;
   for (auto& [id, placed] : maps_) {
@@ -104,6 +109,7 @@ void GlobalMap::remove(std::uint32_t id) {
   if (it == maps_.end()) return;
   for (const CellIndex b : it->second.blocks) unname(b, id);
   maps_.erase(it);
+  if (passing_ == id) passing_.reset();
 }
 
 void GlobalMap::touch(CellIndex index, Block& block) {
@@ -182,18 +188,17 @@ void GlobalMap::draw(CellIndex index, Block& block) {
   const int side = block_cells();
   BlockView view({index.x * side, index.y * side}, side);
   const double least = kLeastShown * side * side;
+  const bool keep_names = passing_ && !block.ids.empty() && block.ids.front() == *passing_;
   std::erase_if(block.ids, [&](std::uint32_t id) {
     Placed& placed = maps_.at(id);
     BlockView with_it = view;
     Testimony said;
     if (!view.is_decided()) said = hear(*placed.map, placed.map_T_origin, with_it);
     const bool shows = said.free + kSurfaceWorth * said.occupied >= least;
-    if (shows) {
-      view = with_it;
-    } else {
-      placed.blocks.erase(index);
-    }
-    return !shows;
+    if (shows) view = with_it;
+    if (shows || keep_names) return false;
+    placed.blocks.erase(index);
+    return true;
   });
   const ChunkIndex chunk = chunk_of(view.first);
   DrawnChunk& drawn = pictures_[chunk].drawn;

@@ -44,6 +44,8 @@ class GlobalMap {
 
   /// Puts in a map that is newer than all others.
   void place(std::shared_ptr<const FinishedMap> map, const Pose2& map_T_origin);
+  /// The same for a map that will be taken out again: it takes no names from others.
+  void place_for_now(std::shared_ptr<const FinishedMap> map, const Pose2& map_T_origin);
   /// Puts the maps that the pose graph moved where they belong now. Moves of less than a fourth of a cell
   /// are waited for.
   void move(const std::map<std::uint32_t, Pose2>& map_T_origins);
@@ -97,6 +99,7 @@ class GlobalMap {
 
   double cell_size_m_;
   int block_bits_;
+  std::optional<std::uint32_t> passing_;  ///< placed for now
   std::map<std::uint32_t, Placed> maps_;
   std::map<CellIndex, Block> blocks_;
   std::deque<CellIndex> dirty_;

@@ -47,7 +47,7 @@ void Slam::close_loops() {
   while (!corrections_.empty() && corrections_.front().due <= visits_.size()) {
     Correction& now = corrections_.front();
     map_T_drawn_ = now.map_T_drawn;
-    waiting_chunks_.insert(waiting_chunks_.end(), now.chunks.begin(), now.chunks.end());
+    if (following_) map_.redrawn(now.chunks);
     corrections_.pop_front();
   }
 }
@@ -69,28 +69,18 @@ void Slam::take_in(const LocalMap& complete) {
 void Slam::draw(const FrontEndResult& fix) {
   if (config_.close_loops && !following_) return;
   enter("draw");
-  show(kChunksATurn);
-  if (fix.inserted) map_.apply(front_end_.footprint_in(map_T_drawn_));
+  map_.show(kChunksATurn);
+  if (fix.inserted) map_.draw(front_end_.footprint_in(map_T_drawn_));
 }
 
 void Slam::finish() {
   if (!config_.close_loops) return;
   front_end_.complete_all();
   while (const auto complete = front_end_.take_complete()) back_end_.finish(*complete);
-  for (const Correction& c : corrections_)
-    waiting_chunks_.insert(waiting_chunks_.end(), c.chunks.begin(), c.chunks.end());
+  for (const Correction& c : corrections_) map_.redrawn(c.chunks);
   corrections_.clear();
-  const std::vector<DrawnChunk> chunks = back_end_.draw();
-  waiting_chunks_.insert(waiting_chunks_.end(), chunks.begin(), chunks.end());
-  show(waiting_chunks_.size());
-}
-
-void Slam::show(std::size_t most_chunks) {
-  for (; most_chunks > 0 && !waiting_chunks_.empty(); --most_chunks) {
-    const DrawnChunk& c = waiting_chunks_.front();
-    map_.show(c.index, c.free, c.occupied);
-    waiting_chunks_.pop_front();
-  }
+  map_.redrawn(back_end_.draw());
+  map_.show(map_.waiting());
 }
 
 std::vector<StampedFix> Slam::trajectory() const {
@@ -104,7 +94,8 @@ std::vector<StampedFix> Slam::trajectory() const {
 Counters Slam::counters() const {
   Counters all = front_end_.counters();
   for (const auto& [name, n] : back_end_.counters()) all.add(name, n);
-  if (map_.cells_refused() > 0) all.add("map.cells_refused", map_.cells_refused());
+  const std::uint64_t refused = map_.grid().cells_refused();
+  if (refused > 0) all.add("map.cells_refused", refused);
   return all;
 }
 

@@ -9,6 +9,7 @@
 #include "base/counters.h"
 #include "slam/back_end.h"
 #include "slam/front_end.h"
+#include "slam/live_map.h"
 
 namespace dynslam {
 
@@ -55,7 +56,7 @@ class Slam {
   std::vector<StampedFix> trajectory() const;
 
   /// The map of everything: see follow().
-  ChunkedGrid& global_map() { return map_; }
+  ChunkedGrid& global_map() { return map_.grid(); }
   const BackEnd& back_end() const { return back_end_; }
   std::size_t local_maps_begun() const { return front_end_.local_maps_begun(); }
   std::size_t local_maps_active() const {
@@ -79,7 +80,6 @@ class Slam {
   void close_loops();
   void take_in(const LocalMap& complete);
   void draw(const FrontEndResult& fix);
-  void show(std::size_t most_chunks);
   void enter(std::string_view stage) {
     if (watch_) watch_->enter(stage);
   }
@@ -89,8 +89,7 @@ class Slam {
   FrontEnd front_end_;
   BackEnd back_end_;
   bool following_ = false;
-  ChunkedGrid map_;
-  std::deque<DrawnChunk> waiting_chunks_;
+  LiveMap map_;
   std::vector<Visit> visits_;
   std::deque<Correction> corrections_;
   Pose2 map_T_drawn_;  ///< as known to the poses

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "grid/chunked_grid.h"
+#include "slam/global_map.h"
+
+namespace dynslam {
+
+/// The map as it is now: what the back end has drawn, with the newest scans on top. What scans left there is
+/// taken off again when the back end has drawn the place anew with all that is known by then, so that
+/// nothing but finished work stays. One thread.
+class LiveMap {
+ public:
+  LiveMap(double cell_size_m, std::size_t max_chunks) : grid_(cell_size_m, max_chunks) {}
+
+  /// The back end has drawn these chunks anew, and others need no change.
+  void redrawn(std::span<const DrawnChunk> chunks);
+  /// Lets up to so many of them in, oldest first.
+  void show(std::size_t most_chunks);
+  /// A scan, in the map's frame. A hit within two cells of a surface that is drawn already is a hit of that
+  /// surface: ranges are not exact.
+  void draw(const ScanFootprint& scan);
+
+  ChunkedGrid& grid() { return grid_; }
+  const ChunkedGrid& grid() const { return grid_; }
+  std::size_t waiting() const { return waiting_.size(); }
+
+ private:
+  CellIndex surface_near(CellIndex hit) const;
+  bool is_surface(CellIndex c) const;
+
+  ChunkedGrid grid_;
+  std::map<ChunkIndex, DrawnChunk> drawn_;  ///< by the back end
+  std::deque<DrawnChunk> waiting_;
+  std::set<ChunkIndex> scanned_;  ///< chunks that scans changed since
+  std::vector<CellIndex> hits_;
+};
+
+}  // namespace dynslam
