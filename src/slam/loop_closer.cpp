@@ -13,7 +13,7 @@ namespace {
 
 /// Maps that follow each other share scans: what they agree on says nothing new.
 constexpr std::uint32_t kNeighbours = 2;
-constexpr std::size_t kMostCandidates = 4;
+constexpr std::size_t kMostCandidates = 3;
 constexpr std::size_t kLookPoints = 100;  ///< of a map, to see how much of it another may know
 constexpr double kLeastShare = 0.3;
 
