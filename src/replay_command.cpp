@@ -67,6 +67,7 @@ nlohmann::json report(const ReplayResult& result) {
            {{"cell_size_m", result.map.cell_size_m()},
             {"chunks", result.map.chunk_count()},
             {"bytes", result.map_bytes}}},
+          {"findings", result.findings},
           {"counters", counters}};
 }
 
@@ -130,6 +131,7 @@ int run_replay(const ReplayOptions& options, const Config& config) {
   }
   write_results(out, result);
   if (!options.quiet) tell(result, options.out);
+  for (const std::string& finding : result.findings) spdlog::warn("{}", finding);
   if (damage) spdlog::warn("{}; what came before is mapped", *damage);
   return damage ? 2 : 0;
 }

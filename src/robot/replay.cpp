@@ -118,6 +118,7 @@ ReplayResult replay(Recording& recording, const SlamConfig& config, const Replay
   result.local_maps_active = slam.local_maps_active();
   result.stages_ms = watch.mean_ms(std::max<std::size_t>(1, result.trajectory.size()));
   result.scan_ms = watch.take_scan_ms();
+  result.findings = slam.findings();
   result.counters = slam.counters();
   for (const auto& [name, n] : recording.counters()) result.counters.add(name, n);
   result.wall_s = seconds_between(begun, Clock::now());

@@ -32,7 +32,8 @@ struct ReplayResult {
   std::map<std::string, double> stages_ms;  ///< mean over all scans
   double wall_s = 0.0;
   double cpu_s = 0.0;
-  Counters counters;  ///< weather on the way from the file to the map
+  std::vector<std::string> findings;  ///< what is wrong with the sensors' mounting
+  Counters counters;                  ///< weather on the way from the file to the map
 };
 
 /// Told now and then: share of the recording read (0 to 1) and scans so far.

@@ -132,6 +132,7 @@ FrontEndResult FrontEnd::process(const Scan& scan) {
 
   enter("insert");
   note_match(fix);
+  compare_sensors(fix, corrected.reference);
   result.inserted = may_insert(scan, fix);
   motion_.fix(corrected.reference, fix.map_T_robot);
   result.local_map_id = local_maps_.empty() ? next_id_ : local_maps_.front().id;
@@ -141,6 +142,16 @@ FrontEndResult FrontEnd::process(const Scan& scan) {
   }
   result.lost = lost_since_.has_value();
   return result;
+}
+
+/// A sensor that means the opposite of what the map says loses its vote, and is named.
+void FrontEnd::compare_sensors(const Fix& fix, Time t) {
+  if (!fix.matched || !motion_.has_fix()) return;
+  const Time before = motion_.last_time();
+  agreement_.note(motion_.last_pose().inverse() * fix.map_T_robot, motion_.imu_turn(before, t),
+                  motion_.wheel_motion(before, t));
+  if (agreement_.imu_turns_backwards()) motion_.distrust_imu();
+  if (agreement_.wheels_turn_backwards() || agreement_.wheels_drive_backwards()) motion_.distrust_wheels();
 }
 
 /// Counts scans that the map does not explain; after too many, or too long a way, a new map begins. A scan
@@ -270,7 +281,7 @@ void FrontEnd::begin_local_map(const Fix& fix, Time t) {
   local_maps_.emplace_back(config_.cell_size_m, static_cast<std::size_t>(config_.max_chunks), fix.map_T_robot,
                            t);
   local_maps_.back().id = next_id_++;
-  local_maps_.back().imu_heading_rad = motion_.imu().heading_at(t);
+  local_maps_.back().imu_heading_rad = motion_.imu_heading(t);
   local_maps_.back().origin_covariance = fix.match.covariance;
   local_maps_.back().is_tied = local_maps_.size() > 1;
 }

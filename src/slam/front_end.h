@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/counters.h"
@@ -16,6 +17,7 @@
 #include "slam/motion_model.h"
 #include "slam/passes.h"
 #include "slam/scan_matcher.h"
+#include "slam/sensor_agreement.h"
 #include "slam/slam_config.h"
 #include "slam/stage_watch.h"
 
@@ -70,6 +72,8 @@ class FrontEnd {
   void found();
   std::size_t local_maps_begun() const { return next_id_; }
   std::size_t waiting() const { return waiting_.size(); }
+  /// What is wrong with the sensors' mounting, in words for the user.
+  std::vector<std::string> findings() const { return agreement_.findings(); }
   /// Weather: what was skipped, smoothed, refused.
   Counters counters() const;
 
@@ -93,6 +97,7 @@ class FrontEnd {
   void note_usual(const MatchResult& match);
   void look_along_wheels(Time t, Fix& fix);
   void look_about(Time t, Fix& fix);
+  void compare_sensors(const Fix& fix, Time t);
   void note_match(const Fix& fix);
   bool may_insert(const Scan& scan, const Fix& fix);
   double quality(const Fix& fix) const;
@@ -109,6 +114,7 @@ class FrontEnd {
   SlamConfig config_;
   StageWatch* watch_;
   MotionModel motion_;
+  SensorAgreement agreement_;
   ScanMatcher matcher_;
   FreeSpace free_space_;
   std::deque<Scan> waiting_;

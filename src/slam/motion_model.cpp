@@ -31,12 +31,14 @@ constexpr double kLeastKnown_rad = 0.35;
 }  // namespace
 
 std::optional<double> MotionModel::imu_turn(Time from, Time to) const {
+  if (!imu_trusted_) return std::nullopt;
   const auto a = imu_.heading_at(from), b = imu_.heading_at(to);
   if (!a || !b) return std::nullopt;
   return *b - *a;
 }
 
 std::optional<Pose2> MotionModel::wheel_motion(Time from, Time to) const {
+  if (!wheels_trusted_) return std::nullopt;
   const auto a = odometry_.pose_at(from), b = odometry_.pose_at(to);
   if (!a || !b) return std::nullopt;
   const Pose2 step = a->inverse() * *b;

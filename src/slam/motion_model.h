@@ -42,6 +42,18 @@ class MotionModel {
   /// Roll and pitch around a scan: level where the IMU is silent. Valid as long as this.
   TiltInScan tilt_around() const;
 
+  /// How far the IMU turned, and how the wheels went, between two times; nothing where they are silent or not
+  /// trusted any more.
+  std::optional<double> imu_turn(Time from, Time to) const;
+  std::optional<Pose2> wheel_motion(Time from, Time to) const;
+  std::optional<double> imu_heading(Time t) const {
+    return imu_trusted_ ? imu_.heading_at(t) : std::nullopt;
+  }
+
+  /// Takes the vote from a sensor that was found to contradict the lidar. Tilt stays in use.
+  void distrust_imu() { imu_trusted_ = false; }
+  void distrust_wheels() { wheels_trusted_ = false; }
+
   /// The scan of time `t` was taken here: the velocity follows.
   void fix(Time t, const Pose2& map_T_robot);
   bool has_fix() const { return has_fix_; }
@@ -56,12 +68,11 @@ class MotionModel {
   };
   static MatchPrior by_wheels(const Pose2& from, const Pose2& step);
   void remember(Time t, const Pose2& map_T_robot);
-  std::optional<double> imu_turn(Time from, Time to) const;
-  std::optional<Pose2> wheel_motion(Time from, Time to) const;
   Pose2 carried_on(double seconds) const;
 
   ImuTrack imu_;
   OdometryTrack odometry_;
+  bool imu_trusted_ = true, wheels_trusted_ = true;
   bool has_fix_ = false;
   Time time_;
   Pose2 pose_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/counters.h"
@@ -63,6 +64,8 @@ class Slam {
     return config_.close_loops ? back_end_.global_map().active() : front_end_.local_maps().size();
   }
   std::size_t waiting() const { return front_end_.waiting(); }
+  /// What is wrong with the sensors' mounting, in words for the user.
+  std::vector<std::string> findings() const { return front_end_.findings(); }
   /// Weather: what was skipped, smoothed, refused.
   Counters counters() const;
 
