@@ -76,10 +76,16 @@ bool ask_for_the_same(const Pose2& one, const Pose2& other, const Vector2& at) {
 
 }  // namespace
 
+void LoopCloser::know(std::shared_ptr<const FinishedMap> map) {
+  Known& known = maps_[map->id];
+  known.map = std::move(map);
+  for (const Vector2& p : known.map->outline) known.reach_m = std::max(known.reach_m, p.norm());
+}
+
 bool LoopCloser::close(std::shared_ptr<const FinishedMap> map) {
-  Known& source = maps_[map->id];
-  source.map = std::move(map);
-  for (const Vector2& p : source.map->outline) source.reach_m = std::max(source.reach_m, p.norm());
+  const std::uint32_t id = map->id;
+  know(std::move(map));
+  const Known& source = maps_.at(id);
   const std::uint64_t before = closures_;
   const std::vector<Candidate> likely = candidates(source);
   for (const Candidate& c : likely) {

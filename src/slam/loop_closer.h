@@ -33,6 +33,8 @@ class LoopCloser {
   /// Puts in the newest map, whose node is in the graph, and closes its loops with those before. Returns
   /// whether constraints were added.
   bool close(std::shared_ptr<const FinishedMap> map);
+  /// Puts in a map without looking for anything.
+  void know(std::shared_ptr<const FinishedMap> map);
   /// Forgets a map that was retired.
   void forget(std::uint32_t id);
 

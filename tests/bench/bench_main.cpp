@@ -66,6 +66,7 @@ int run(int argc, char** argv) {
   register_clear_benchmarks();
   register_match_benchmarks();
   register_replay_benchmarks();
+  register_back_end_benchmarks();
   register_map_benchmarks();
   have_had_a_thread();
   KeepingReporter reporter;

@@ -8,5 +8,6 @@ void register_clear_benchmarks();
 void register_match_benchmarks();
 void register_map_benchmarks();
 void register_replay_benchmarks();
+void register_back_end_benchmarks();
 
 }  // namespace dynslam::bench

@@ -38,7 +38,9 @@ struct Solved {
 
 Solved solve(Recording& recording) {
   Solved out;
-  Slam slam({});
+  SlamConfig config;
+  config.close_loops = false;  // poses are to be continuous
+  Slam slam(config);
   const auto work_off = [&](bool at_end) {
     while (const auto r = slam.next(at_end)) out.track.push_back({r->stamp, r->map_T_robot});
   };

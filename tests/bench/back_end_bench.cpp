@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// What a finished local map costs the back end: clean-up, loop search, solving, drawing; and how that grows
+// with the maps there are. On the local maps of the real recording at 2 cm, a building of some 40 x 60 m; for
+// more maps than it has, copies of the building are set side by side.
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "bench/benchmarks.h"
+#include "bench/scan_source.h"
+#include "slam/clean_up.h"
+#include "slam/front_end.h"
+#include "slam/global_map.h"
+#include "slam/loop_closer.h"
+#include "slam/pose_graph.h"
+
+namespace dynslam::bench {
+namespace {
+
+using MapPtr = std::shared_ptr<const FinishedMap>;
+constexpr int kMostMaps = 500;
+constexpr double kBuilding_m = 100.0;  ///< from one copy of the building to the next
+
+struct Building {
+  std::vector<LocalMap> local;
+  std::vector<MapPtr> finished;
+};
+
+Building make_building() {
+  Building building;
+  SlamConfig config;
+  config.trusted_range_m = 30.0;
+  FrontEnd front_end(config);
+  const auto recording = open_source(real_source());
+  while (auto record = recording->next()) {
+    std::visit([&](auto&& sample) { front_end.add(std::forward<decltype(sample)>(sample)); },
+               std::move(*record));
+    while (front_end.next()) {
+    }
+    while (auto complete = front_end.take_complete()) building.local.push_back(std::move(*complete));
+  }
+  for (const LocalMap& map : building.local)
+    building.finished.push_back(std::make_shared<const FinishedMap>(clean_up(map, map.id, map.ended)));
+  return building;
+}
+
+const Building& building() {
+  static const Building made = make_building();
+  return made;
+}
+
+/// The n-th map: of the building, or of a copy of it.
+MapPtr map_of(std::size_t n) {
+  const auto& maps = building().finished;
+  auto copy = std::make_shared<FinishedMap>(*maps[n % maps.size()]);
+  copy->id = static_cast<std::uint32_t>(n);
+  return copy;
+}
+
+Pose2 pose_of(std::size_t n) {
+  const std::size_t in_building = building().finished.size();
+  const Pose2& origin = building().finished[n % in_building]->drawn_T_origin;
+  return {origin.x + kBuilding_m * static_cast<double>(n / in_building), origin.y, origin.yaw};
+}
+
+/// A chain of n maps with odometry between them.
+PoseGraph chain(std::size_t n) {
+  PoseGraph graph;
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(4e-4, 4e-4, 2e-5).asDiagonal();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto id = static_cast<std::uint32_t>(i);
+    graph.add_node(id, pose_of(i));
+    if (i > 0) graph.add_odometry_edge(id - 1, id, pose_of(i - 1).inverse() * pose_of(i), covariance);
+  }
+  return graph;
+}
+
+void cleaning(benchmark::State& state) {
+  const std::vector<LocalMap>& maps = building().local;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const LocalMap& map = maps[i++ % maps.size()];
+    benchmark::DoNotOptimize(clean_up(map, map.id, map.ended));
+  }
+}
+
+/// All that a new map is searched for among n.
+void searching(benchmark::State& state) {
+  const auto n = static_cast<std::size_t>(state.range(0));
+  for (auto _ : state) {
+    state.PauseTiming();
+    PoseGraph graph = chain(n);
+    LoopCloser loops(graph);
+    for (std::size_t i = 0; i + 1 < n; ++i) loops.know(map_of(i));
+    const MapPtr newest = map_of(n - 1);
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(loops.close(newest));
+  }
+  state.counters["maps"] = static_cast<double>(n);
+}
+
+/// A graph of n maps with a loop for each, bent by the newest.
+void solving(benchmark::State& state) {
+  const auto n = static_cast<std::size_t>(state.range(0));
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
+  for (auto _ : state) {
+    state.PauseTiming();
+    PoseGraph graph = chain(n);
+    for (std::size_t i = 10; i < n; ++i) {
+      const Pose2 off{0.02 * std::sin(static_cast<double>(i)), 0.02, 0.002};
+      graph.add_loop_edge(static_cast<std::uint32_t>(i - 10), static_cast<std::uint32_t>(i),
+                          pose_of(i - 10).inverse() * pose_of(i) * off, covariance);
+    }
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(graph.solve());
+  }
+  state.counters["maps"] = static_cast<double>(n);
+}
+
+/// Everything of n maps drawn anew, as after a correction that moves all.
+void drawing(benchmark::State& state) {
+  const auto n = static_cast<std::size_t>(state.range(0));
+  GlobalMap map(0.02);
+  for (std::size_t i = 0; i < n; ++i) map.place(map_of(i), pose_of(i));
+  while (map.redraw(100000) > 0) continue;
+  double shift = 0.0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    shift = shift > 0 ? 0.0 : 0.03;
+    std::map<std::uint32_t, Pose2> moved;
+    for (std::size_t i = 0; i < n; ++i)
+      moved[static_cast<std::uint32_t>(i)] = Pose2{shift, 0, 0} * pose_of(i);
+    state.ResumeTiming();
+    map.move(moved);
+    while (map.redraw(100000) > 0) continue;
+    benchmark::DoNotOptimize(map.publish());
+  }
+  state.counters["maps"] = static_cast<double>(n);
+  state.counters["blocks"] = static_cast<double>(map.blocks());
+}
+
+}  // namespace
+
+void register_back_end_benchmarks() {
+  benchmark::RegisterBenchmark("clean_up", cleaning)->Unit(benchmark::kMillisecond);
+  const std::pair<const char*, void (*)(benchmark::State&)> growing[] = {
+      {"loop_search", searching}, {"solve", solving}, {"redraw", drawing}};
+  for (const auto& [name, run] : growing) {
+    benchmark::RegisterBenchmark(name, run)
+        ->RangeMultiplier(2)
+        ->Range(32, kMostMaps)
+        ->Unit(benchmark::kMillisecond);
+  }
+}
+
+}  // namespace dynslam::bench
