@@ -161,6 +161,7 @@ void LoopCloser::try_loop(const FinishedMap& source, const Candidate& candidate,
 
 /// Takes a loop that contradicts the graph in, with those that say the same, once they are enough.
 void LoopCloser::hear_claim(const Claim& claim) {
+  std::erase_if(claims_, [&](const Claim& c) { return c.a == claim.a && c.b == claim.b; });
   const Vector2 at = graph_.pose(claim.b).translation();
   const Pose2 wanted = correction_of(graph_, claim.a, claim.b, claim.a_T_b.pose);
   std::vector<Claim> same{claim};

@@ -169,6 +169,74 @@ TEST(ChunkedGrid, StopsAtTheCapAndCountsWhatItRefuses) {
   EXPECT_EQ(grid.hit({0, 0}), 2 * CellRule{}.gain) << "what is there still learns";
 }
 
+/// A tile of random cells, and one of cells that are in no other.
+std::pair<CellTile, CellTile> random_tiles(std::mt19937& random) {
+  CellTile free, occupied;
+  for (std::size_t r = 0; r < kChunkSide; ++r) {
+    free[r] = std::uint64_t{random()} << 32 | random();
+    occupied[r] = (std::uint64_t{random()} << 32 | random()) & ~free[r];
+  }
+  return {free, occupied};
+}
+
+TEST(ChunkedGrid, ShowsTheTilesOfAChunkAndForgetsWhatWasThere) {
+  std::mt19937 random(12);
+  ChunkedGrid grid(0.02);
+  const ChunkIndex index{-2, 1};
+  const CellIndex low = first_cell(index);
+  for (int trial = 0; trial < 3; ++trial) {
+    const auto [free, occupied] = random_tiles(random);
+    grid.show(index, free, occupied);
+    for (int y = 0; y < kChunkSide; ++y) {
+      for (int x = 0; x < kChunkSide; ++x) {
+        const CellIndex c{low.x + x, low.y + y};
+        const bool is_free = free[static_cast<std::size_t>(y)] >> x & 1U;
+        const bool is_occupied = occupied[static_cast<std::size_t>(y)] >> x & 1U;
+        ASSERT_EQ(grid.hit(c), is_occupied ? 255 : 0);
+        ASSERT_EQ(grid.miss(c), is_free ? 255 : 0);
+        ASSERT_EQ(grid.state(c), is_occupied ? CellState::kOccupied
+                                 : is_free   ? CellState::kFree
+                                             : CellState::kUnknown);
+      }
+    }
+  }
+  EXPECT_EQ(grid.chunk_count(), 1U);
+  EXPECT_EQ(grid.state({low.x - 1, low.y}), CellState::kUnknown);
+}
+
+TEST(ChunkedGrid, ShowsNothingNewToSnapshots) {
+  std::mt19937 random(13);
+  ChunkedGrid grid(0.02);
+  const auto [free, occupied] = random_tiles(random);
+  grid.show({0, 0}, free, occupied);
+  const GridSnapshot before = grid.snapshot();
+  grid.show({0, 0}, occupied, free);
+  grid.show({1, 0}, free, occupied);
+  for (int x = 0; x < kChunkSide; ++x) {
+    const CellState was = free[5] >> x & 1U       ? CellState::kFree
+                          : occupied[5] >> x & 1U ? CellState::kOccupied
+                                                  : CellState::kUnknown;
+    ASSERT_EQ(before.state({x, 5}), was);
+  }
+  EXPECT_EQ(before.chunk_count(), 1U);
+  EXPECT_EQ(grid.snapshot().find({0, 0})->version, before.find({0, 0})->version + 1);
+}
+
+TEST(ChunkedGrid, CountsTheCellsOfTilesBeyondTheCap) {
+  ChunkedGrid grid(0.02, 1);
+  CellTile free{}, occupied{};
+  free[3] = 0xFF;
+  occupied[4] = 0x3;
+  grid.show({0, 0}, free, occupied);
+  EXPECT_EQ(grid.cells_refused(), 0U);
+  grid.show({1, 0}, free, occupied);
+  EXPECT_EQ(grid.cells_refused(), 8U + 2U);
+  EXPECT_EQ(grid.chunk_count(), 1U);
+  EXPECT_EQ(grid.state({64, 3}), CellState::kUnknown);
+  grid.show({0, 0}, occupied, free);
+  EXPECT_EQ(grid.state({1, 4}), CellState::kFree) << "what is there can still change";
+}
+
 TEST(ChunkedGrid, ReadersSeeWholeChunksWhileTheWriterWrites) {
   ChunkedGrid grid(0.02);
   ScanFootprint whole;  // gives every cell of four chunks the same value: a torn chunk would show two

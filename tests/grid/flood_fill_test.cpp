@@ -78,5 +78,24 @@ TEST(FloodFill, AgreesWithBruteForceOnMazes) {
   }
 }
 
+TEST(FloodFill, TakesABitmapOfSeedsAsTheirList) {
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 30; ++trial) {
+    CellBitmap through, seeds;
+    for (CellBitmap* b : {&through, &seeds}) b->reset({{-1, -1}, {1, 1}});
+    std::vector<CellIndex> list;
+    for (int y = -64; y < 128; ++y) {
+      for (int x = -64; x < 128; ++x) {
+        if (random() % 100 < 55) through.set({x, y});
+        if (random() % 1000 < 4) seeds.set({x, y}), list.push_back({x, y});  // many not in `through`
+      }
+    }
+    const std::set<CellIndex> expected = brute_force(through, list);
+    const CellBitmap reached = flood_fill(through, seeds);
+    ASSERT_EQ(reached.count(), expected.size());
+    for (const CellIndex c : expected) ASSERT_TRUE(reached.test(c));
+  }
+}
+
 }  // namespace
 }  // namespace dynslam

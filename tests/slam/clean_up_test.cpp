@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "grid/bitmap_sets.h"
 #include "grid/drawn_map.h"
 #include "grid/free_space.h"
 #include "slam/drawn_world.h"
@@ -250,62 +251,160 @@ TEST(CleanUp, OfARoomIsQuick) {
   EXPECT_LT(took.count(), 500.0) << "a bound for slow builds; optimised it is about 1 ms";
 }
 
-/// Free cells reached from the seeds step by step, and the occupied cells around them.
-void drop_unseen_slowly(std::set<CellIndex>& free, std::set<CellIndex>& occupied,
-                        const std::vector<CellIndex>& seeds) {
-  std::set<CellIndex> reached, touched;
-  std::deque<CellIndex> queue(seeds.begin(), seeds.end());
+/// Two sets of random cells, none in both.
+struct Cells {
+  CellBitmap free, occupied;
+
+  explicit Cells(const ChunkBox& box = {{-1, -1}, {1, 0}}) {
+    free.reset(box);
+    occupied.reset(box);
+  }
+  void fill(CellBitmap Cells::*kind, CellIndex low, CellIndex high) {
+    for (int y = low.y; y <= high.y; ++y) {
+      for (int x = low.x; x <= high.x; ++x) (this->*kind).set({x, y});
+    }
+  }
+};
+
+/// Whether a square of (2 reach + 1)^2 cells holds none but those of a kind, any of it counted.
+bool square_is_full(const CellBitmap& cells, CellIndex middle, int reach) {
+  for (int y = middle.y - reach; y <= middle.y + reach; ++y) {
+    for (int x = middle.x - reach; x <= middle.x + reach; ++x) {
+      if (cells.contains({x, y}) && !cells.test({x, y})) return false;
+    }
+  }
+  return true;
+}
+bool square_is_empty(const CellBitmap& cells, CellIndex middle, int reach) {
+  for (int y = middle.y - reach; y <= middle.y + reach; ++y) {
+    for (int x = middle.x - reach; x <= middle.x + reach; ++x) {
+      if (cells.test({x, y})) return false;
+    }
+  }
+  return true;
+}
+
+/// A crack is filled where no square two cells around would fit beside the free cells.
+TEST(FillCracks, AgreesWithBruteForce) {
+  std::mt19937 random(11);
+  for (int trial = 0; trial < 20; ++trial) {
+    Cells cells;
+    for (int y = -58; y < 58; ++y) {  // no nearer to the rim, where there is no beyond
+      for (int x = -58; x < 122; ++x) {
+        const auto draw = random() % 100;
+        if (draw < 6) cells.free.set({x, y});
+        if (draw >= 90) cells.occupied.set({x, y});
+      }
+    }
+    CellBitmap filled = cells.free;
+    fill_cracks(filled, cells.occupied, 4);
+    for (int y = -64; y < 64; ++y) {
+      for (int x = -64; x < 128; ++x) {
+        bool is_crack = true;
+        for (int v = y - 2; v <= y + 2 && is_crack; ++v) {
+          for (int u = x - 2; u <= x + 2 && is_crack; ++u) is_crack = !square_is_empty(cells.free, {u, v}, 2);
+        }
+        ASSERT_EQ(filled.test({x, y}), is_crack && !cells.occupied.test({x, y})) << x << " " << y;
+      }
+    }
+  }
+}
+
+TEST(FillCracks, FillsFourCellsAndLeavesFive) {
+  for (const int wide : {1, 4, 5, 9}) {
+    Cells cells;
+    cells.fill(&Cells::free, {-20, -20}, {9, 20});
+    cells.fill(&Cells::free, {10 + wide, -20}, {50, 20});
+    const std::size_t before = cells.free.count();
+    fill_cracks(cells.free, cells.occupied, 4);
+    EXPECT_EQ(cells.free.count() - before, wide <= 4 ? 41U * wide : 0U) << wide;
+  }
+}
+
+TEST(FillCracks, LeavesSurfacesStanding) {
+  Cells cells;
+  cells.fill(&Cells::free, {-20, -20}, {9, 20});
+  cells.fill(&Cells::occupied, {11, -20}, {11, 20});
+  cells.fill(&Cells::free, {13, -20}, {50, 20});
+  fill_cracks(cells.free, cells.occupied, 4);
+  EXPECT_EQ(cells.occupied.count(), 41U);
+  EXPECT_TRUE(cells.free.test({10, 0}));
+  EXPECT_FALSE(cells.free.test({11, 0}));
+  EXPECT_TRUE(cells.free.test({12, 0}));
+}
+
+/// Free cells that steps through free cells lead to from the middle of a square of nine by nine, and the
+/// surfaces beside them.
+void drop_gaps_slowly(const Cells& cells, std::set<CellIndex>& reached, std::set<CellIndex>& touched) {
+  std::deque<CellIndex> queue;
+  for (int y = -64; y < 64; ++y) {
+    for (int x = -64; x < 128; ++x) {
+      if (square_is_full(cells.free, {x, y}, 4)) queue.push_back({x, y});
+    }
+  }
   while (!queue.empty()) {
     const CellIndex c = queue.front();
     queue.pop_front();
-    if (!free.contains(c) || !reached.insert(c).second) continue;
+    if (!cells.free.test(c) || !reached.insert(c).second) continue;
     for (int i = -1; i <= 1; ++i) {
       for (int j = -1; j <= 1; ++j) {
         const CellIndex d{c.x + i, c.y + j};
         if (i == 0 || j == 0) queue.push_back(d);
-        if (occupied.contains(d)) touched.insert(d);
+        if (cells.occupied.test(d)) touched.insert(d);
       }
     }
   }
-  free = reached;
-  occupied = touched;
 }
 
-TEST(DropUnseen, AgreesWithBruteForce) {
-  std::mt19937 random(11);
+TEST(DropGaps, AgreesWithBruteForce) {
+  std::mt19937 random(12);
   for (int trial = 0; trial < 20; ++trial) {
-    CellBitmap free, occupied;
-    for (CellBitmap* b : {&free, &occupied}) b->reset({{-1, -1}, {1, 0}});
-    std::set<CellIndex> free_cells, occupied_cells;
+    Cells cells;
     for (int y = -64; y < 64; ++y) {
       for (int x = -64; x < 128; ++x) {
         const auto draw = random() % 100;
-        if (draw < 60) free.set({x, y}), free_cells.insert({x, y});
-        if (draw >= 80) occupied.set({x, y}), occupied_cells.insert({x, y});
+        if (draw < 55) cells.free.set({x, y});
+        if (draw >= 80) cells.occupied.set({x, y});
       }
     }
-    const std::vector<CellIndex> seeds = {{0, 0}, {-64, -64}, {127, 63}};
-    drop_unseen(free, occupied, seeds);
-    drop_unseen_slowly(free_cells, occupied_cells, seeds);
-    ASSERT_EQ(free.count(), free_cells.size());
-    ASSERT_EQ(occupied.count(), occupied_cells.size());
-    for (const CellIndex c : free_cells) ASSERT_TRUE(free.test(c));
-    for (const CellIndex c : occupied_cells) ASSERT_TRUE(occupied.test(c));
+    for (int room = 0; room < 3; ++room) {
+      const CellIndex low{static_cast<int>(random() % 170) - 60, static_cast<int>(random() % 100) - 60};
+      const int side = 6 + static_cast<int>(random() % 6);
+      cells.fill(&Cells::free, low, {low.x + side, low.y + side});
+    }
+    take_out(cells.occupied, cells.free);
+    std::set<CellIndex> reached, touched;
+    drop_gaps_slowly(cells, reached, touched);
+    drop_gaps(cells.free, cells.occupied, 8);
+    ASSERT_EQ(cells.free.count(), reached.size());
+    ASSERT_EQ(cells.occupied.count(), touched.size());
+    for (const CellIndex c : reached) ASSERT_TRUE(cells.free.test(c));
+    for (const CellIndex c : touched) ASSERT_TRUE(cells.occupied.test(c));
   }
 }
 
-TEST(DropUnseen, TakesTheOlderWallBehindTheNewer) {
-  CellBitmap free, occupied;
-  for (CellBitmap* b : {&free, &occupied}) b->reset({{0, 0}, {0, 0}});
-  for (int x = 0; x < 64; ++x) {
-    for (int y = 0; y < 20; ++y) free.set({x, y});
-    occupied.set({x, 20});
-    occupied.set({x, 21});
-  }
-  const std::vector<CellIndex> seeds = {{5, 5}};
-  drop_unseen(free, occupied, seeds);
-  EXPECT_EQ(occupied.count(), 64U);
-  EXPECT_TRUE(occupied.test({30, 20}));
+TEST(DropGaps, TakesTheOlderWallBehindTheNewerAndTheGap) {
+  Cells cells({{0, 0}, {0, 0}});
+  cells.fill(&Cells::free, {0, 0}, {63, 19});
+  cells.fill(&Cells::occupied, {0, 20}, {63, 20});
+  cells.fill(&Cells::free, {0, 21}, {63, 22});
+  cells.fill(&Cells::occupied, {0, 23}, {63, 23});
+  drop_gaps(cells.free, cells.occupied, 8);
+  EXPECT_EQ(cells.occupied.count(), 64U);
+  EXPECT_TRUE(cells.occupied.test({30, 20}));
+  EXPECT_EQ(cells.free.count(), 64U * 20U);
+}
+
+TEST(DropGaps, KeepsWhatIsNarrowButHasAWayToWiderParts) {
+  Cells cells;
+  cells.fill(&Cells::free, {-60, -60}, {-30, -30});
+  cells.fill(&Cells::free, {-29, -40}, {60, -37});  // an alley of four cells out of the room
+  cells.fill(&Cells::free, {-60, 0}, {60, 7});      // eight cells, and no way in
+  cells.fill(&Cells::free, {-60, 20}, {60, 28});    // nine
+  drop_gaps(cells.free, cells.occupied, 8);
+  EXPECT_TRUE(cells.free.test({60, -38}));
+  EXPECT_FALSE(cells.free.test({0, 4}));
+  EXPECT_TRUE(cells.free.test({0, 24})) << "the room behind a door that is shut";
 }
 
 }  // namespace

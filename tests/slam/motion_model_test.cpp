@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "slam/motion_model.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "support_matchers.h"
@@ -51,6 +54,79 @@ TEST(MotionModel, DoesNotBelieveWheelsThatLeap) {
   motion.add(OdometrySample{time_at_s(1.0), {0, 0, 0}});
   motion.add(OdometrySample{time_at_s(1.1), {30, 0, 0}});
   EXPECT_THAT(motion.expect(time_at_s(1.1)).map_T_robot, PoseNear(Pose2{0.55, 0, 0}, 0.002, 1e-6));
+}
+
+TEST(MotionModel, DoubtingTheWheelsFollowsThemAllTheSameAfterLongerThanAVelocityLasts) {
+  MotionModel motion = driven(0);
+  for (const double t_s : {1.0, 4.0}) motion.add(OdometrySample{time_at_s(t_s), {t_s, 0, 0.1 * t_s}});
+  const MatchPrior prior = motion.expect_doubting_wheels(time_at_s(4.0));
+  EXPECT_THAT(prior.map_T_robot,
+              PoseNear(Pose2{0.5, 0, 0} * Pose2{3 * std::cos(0.1), -3 * std::sin(0.1), 0.3}, 1e-6, 1e-6));
+  EXPECT_GT(prior.sigma_xy_m, motion.expect(time_at_s(4.0)).sigma_xy_m);
+  EXPECT_GT(prior.sigma_yaw_rad, 0.2);
+  for (int i = 0; i <= 400; ++i) motion.add(heading(0.01 * i, -0.002 * i));
+  EXPECT_NEAR(motion.expect_doubting_wheels(time_at_s(4.0)).map_T_robot.yaw, -0.6, 1e-6) << "by the IMU";
+}
+
+/// A robot that drives along x at 0.5 m/s, a fix and a wheel count every 0.1 s. From 1.0 to 1.8 s the count
+/// stands still, at 1.9 s it has caught up. Fixes until 1.8 s, each as `believed` has it.
+template <class Believed>
+MotionModel with_wheels_that_stand_still(Believed&& believed) {
+  MotionModel motion;
+  for (int i = 0; i <= 19; ++i) {
+    const double way_m = 0.05 * (i > 10 && i < 19 ? 10 : i);
+    motion.add(OdometrySample{time_at_s(0.1 * i), Pose2{3, -2, 1} * Pose2{way_m, 0, 0}});
+    if (i < 19) motion.fix(time_at_s(0.1 * i), {believed(i), 0, 0});
+  }
+  return motion;
+}
+double as_it_was(int i) { return 0.05 * i; }
+double as_the_wheels_say(int i) { return 0.05 * std::min(i, 10); }
+
+TEST(MotionModel, TheLongerWayIsRightWhetherOrNotTheRobotWasFollowedMeanwhile) {
+  for (const auto& believed : {as_it_was, as_the_wheels_say}) {
+    const MotionModel motion = with_wheels_that_stand_still(believed);
+    EXPECT_TRUE(motion.wheels_leap(time_at_s(1.9)));
+    const auto prior = motion.expect_by_longer_way(time_at_s(1.9));
+    ASSERT_TRUE(prior);
+    EXPECT_THAT(prior->map_T_robot, PoseNear(Pose2{0.95, 0, 0}, 0.001, 1e-6));
+    EXPECT_LT(prior->sigma_xy_m, 0.2);
+  }
+  EXPECT_NEAR(with_wheels_that_stand_still(as_it_was).expect(time_at_s(1.9)).map_T_robot.x, 0.9 + 0.45, 1e-6)
+      << "and the shorter is not";
+}
+
+TEST(MotionModel, TheLongerWayTakesTheTurnFromTheImu) {
+  MotionModel motion = with_wheels_that_stand_still(as_it_was);
+  for (int i = 0; i <= 200; ++i) motion.add(heading(0.01 * i, 0.5 + 0.01 * i));
+  EXPECT_NEAR(motion.expect_by_longer_way(time_at_s(1.9))->map_T_robot.yaw, 0.1, 1e-6);
+}
+
+TEST(MotionModel, ThereIsNoLongerWayWithoutWheelsOrFixes) {
+  EXPECT_FALSE(driven(0).expect_by_longer_way(time_at_s(1.1)));
+  EXPECT_FALSE(MotionModel().expect_by_longer_way(time_at_s(1.1)));
+  MotionModel late = driven(0);
+  late.add(OdometrySample{time_at_s(0.8), {}});
+  EXPECT_FALSE(late.expect_by_longer_way(time_at_s(0.85))) << "the wheels do not reach back that far";
+}
+
+TEST(MotionModel, TellsALeapOfTheWheelsFromDriving) {
+  const auto leaps = [](const Pose2& step, double dt_s) {
+    MotionModel motion = driven(0);
+    motion.add(OdometrySample{time_at_s(1.0), {7, 7, 1}});
+    motion.add(OdometrySample{time_at_s(1.0 + dt_s), Pose2{7, 7, 1} * step});
+    return motion.wheels_leap(time_at_s(1.0 + dt_s));
+  };
+  EXPECT_FALSE(leaps({0.05, 0, 0}, 0.1)) << "on at 0.5 m/s";
+  EXPECT_FALSE(leaps({0.15, 0, 0}, 0.1)) << "a kick";
+  EXPECT_FALSE(leaps({0.0, 0, 0}, 0.1)) << "a sudden halt";
+  EXPECT_FALSE(leaps({0.05, 0, 1.0}, 0.1)) << "a turn is none";
+  EXPECT_TRUE(leaps({0.3, 0, 0}, 0.1));
+  EXPECT_TRUE(leaps({-0.2, 0, 0}, 0.1));
+  EXPECT_TRUE(leaps({0.05, 0.2, 0}, 0.1)) << "sideways";
+  EXPECT_FALSE(leaps({0.3, 0, 0}, 0.5)) << "in half a second, it may";
+  EXPECT_FALSE(leaps({3.0, 0, 0}, 2.0)) << "after so long, no velocity lasts";
+  EXPECT_FALSE(driven(0).wheels_leap(time_at_s(1.1))) << "without wheels";
 }
 
 TEST(MotionModel, KnowsTheMotionInsideAScan) {

@@ -341,7 +341,7 @@ TEST(Slam, ClosesLoopsWhenAsked) {
   }
   drive.worst(true);
   drive.slam.finish();
-  EXPECT_GT(drive.slam.back_end().closures(), 3U);
+  EXPECT_GT(drive.slam.back_end().loops().closures(), 3U);
   EXPECT_LT(drive.worst_m, 0.05);
   const auto trajectory = drive.slam.trajectory();
   ASSERT_EQ(trajectory.size(), 700U);
