@@ -172,10 +172,4 @@ std::optional<Eigen::Matrix3d> PoseGraph::relative_covariance(std::uint32_t a, s
   return found == chains.end() ? std::nullopt : std::optional(found->second.covariance);
 }
 
-std::optional<RelativePose> PoseGraph::odometry_between(std::uint32_t a, std::uint32_t b) const {
-  const auto chains = chains_from(a, false);
-  const auto found = chains.find(b);
-  return found == chains.end() ? std::nullopt : std::optional(found->second);
-}
-
 }  // namespace dynslam

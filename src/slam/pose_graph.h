@@ -91,8 +91,6 @@ class PoseGraph {
   /// The same from one node to all that it is tied to, at the price of one. `pose` is what the measurements
   /// along the chain add up to.
   std::map<std::uint32_t, RelativePose> relatives_of(std::uint32_t a) const { return chains_from(a, true); }
-  /// a_T_b by odometry alone, loops left out.
-  std::optional<RelativePose> odometry_between(std::uint32_t a, std::uint32_t b) const;
 
   std::uint64_t refused() const { return refused_; }
   std::uint64_t loops_let_go() const { return loops_let_go_; }
