@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -58,6 +59,18 @@ TEST(TiledBitmap, GivesWordsThatBeginAnywhere) {
       ASSERT_EQ((word >> b & 1U) != 0, cells.test({first.x + b, first.y})) << first.x << "+" << b;
   }
   EXPECT_EQ(tiled.word({1 << 30, -(1 << 30)}), 0U);
+}
+
+TEST(TiledBitmap, GivesWordsOfManyRowsAtOnce) {
+  std::mt19937 random(7);
+  const TiledBitmap tiled(random_cells(random));
+  for (int i = 0; i < 300; ++i) {
+    const CellIndex first{static_cast<int>(random() % 500) - 250, static_cast<int>(random() % 400) - 150};
+    std::vector<std::uint64_t> rows(random() % 150, 42);
+    tiled.words(first, rows);
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      ASSERT_EQ(rows[r], tiled.word({first.x, first.y + static_cast<int>(r)})) << r;
+  }
 }
 
 TEST(TiledBitmap, GivesTilesOfWordsAndClearOnesOutside) {

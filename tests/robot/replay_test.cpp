@@ -42,7 +42,7 @@ TEST(Replay, MapsARecording) {
   EXPECT_GT(result.map.chunk_count(), 10U);
   EXPECT_GT(trinary_map(result.map).width, 100);
   EXPECT_EQ(result.scan_ms.size(), 30U);
-  EXPECT_EQ(result.stages_ms.size(), 4U);
+  EXPECT_EQ(result.stages_ms.size(), 3U) << "the map is drawn at the end";
   EXPECT_GT(result.local_maps, 0U);
 }
 

@@ -258,6 +258,17 @@ TEST(GlobalMap, TakesAMapOutAgain) {
   EXPECT_EQ(shown.map.blocks(), 0U);
 }
 
+TEST(GlobalMap, AMapPlacedForNowTakesNothingFromOthers) {
+  ShownMap shown;
+  shown.map.place(drawn(0, room()), {});
+  EXPECT_EQ(shown.picture(), room());
+  shown.map.place_for_now(drawn(1, with_box(room(), 5, 10, 10)), {});
+  EXPECT_EQ(shown.picture(), with_box(room(), 5, 10, 10));
+  EXPECT_THAT(shown.map.retire(1), IsEmpty()) << "the older still has its names";
+  shown.map.remove(1);
+  EXPECT_EQ(shown.picture(), room());
+}
+
 TEST(GlobalMap, KnowsWhenAPlaceWasSeenLast) {
   GlobalMap map(kCell_m);
   map.place(drawn(3, room(100, 30)), {});
