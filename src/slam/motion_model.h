@@ -46,9 +46,7 @@ class MotionModel {
   /// trusted any more.
   std::optional<double> imu_turn(Time from, Time to) const;
   std::optional<Pose2> wheel_motion(Time from, Time to) const;
-  std::optional<double> imu_heading(Time t) const {
-    return imu_trusted_ ? imu_.heading_at(t) : std::nullopt;
-  }
+  std::optional<double> imu_heading(Time t) const { return imu_trusted_ ? imu_.heading_at(t) : std::nullopt; }
 
   /// Takes the vote from a sensor that was found to contradict the lidar. Tilt stays in use.
   void distrust_imu() { imu_trusted_ = false; }

@@ -37,7 +37,8 @@ std::vector<std::string> SensorAgreement::findings() const {
         "down (lidar.upside_down); the wheels are not used");
   if (wheels_drive_backwards())
     all.emplace_back(
-        "the wheels drive the other way than the lidar: the lidar sits backwards (lidar.yaw_rad 3.1416), or the "
+        "the wheels drive the other way than the lidar: the lidar sits backwards (lidar.yaw_rad 3.1416), or "
+        "the "
         "wheels count backwards; they are not used");
   return all;
 }

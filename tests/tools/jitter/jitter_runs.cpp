@@ -22,8 +22,11 @@ CopyResult run_copy(const OpenRecording& open, const std::vector<StampedPose>& r
   if (recording->damage()) throw InputError(*recording->damage());
   if (replayed.inserted == 0) throw InputError("the recording holds no usable scan of a lidar");
   const double final_m = absolute_error_m(replayed.trajectory, reference);
-  return {seed, replayed.trajectory.size(), final_m,
-          absolute_error_m(replayed.trajectory_live, reference), replayed.loop_closures,
+  return {seed,
+          replayed.trajectory.size(),
+          final_m,
+          absolute_error_m(replayed.trajectory_live, reference),
+          replayed.loop_closures,
           std::move(replayed.trajectory)};
 }
 
