@@ -207,9 +207,13 @@ void GlobalMap::draw(CellIndex index, Block& block) {
   put(drawn.occupied, view.first, view.occupied, side);
 }
 
+/// Of all chunks, and a rim of one more, so that nothing is grown against its edge.
 ChunkBox GlobalMap::box() const {
   ChunkBox box;
-  for (const auto& [chunk, picture] : pictures_) box.include(chunk);
+  for (const auto& [chunk, picture] : pictures_) {
+    box.include({chunk.x - 1, chunk.y - 1});
+    box.include({chunk.x + 1, chunk.y + 1});
+  }
   return box;
 }
 

@@ -66,7 +66,8 @@ void HitWindow::shape(int chunks_wide, int chunks_high, int side) {
       static_cast<std::size_t>(chunks_wide) * static_cast<std::size_t>(chunks_high * kChunkSide / kBand), 0);
   const std::size_t cells = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_);
   if (cells > capacity_) {
-    capacity_ = cells + cells / 2;
+    capacity_ = cells + cells / 8;
+    data_.reset();  // never both at once: a wide search with long rays takes ten megabytes
     data_ = std::make_unique<std::uint8_t[]>(capacity_);
   }
 }

@@ -16,6 +16,9 @@ struct MatchPoint {
   float x = 0.0F;
   float y = 0.0F;
   float weight = 1.0F;  ///< near surfaces get many beams a cell; together they count as one or two
+  /// Unit vector across the surface that the point lies on, in the frame of x and y; 0, 0: not known. Beams
+  /// far apart leave dots on a surface: what the dots say of the way along it is of the beams, not the place.
+  float nx = 0.0F, ny = 0.0F;
 };
 
 /// A copy of the hit plane around the points of a scan in one piece of memory, chunk seams gone, so that a

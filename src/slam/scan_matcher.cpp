@@ -96,7 +96,7 @@ void ScanMatcher::choose_sparse(std::span<const MatchPoint> points) {
     passed += p.weight;
     if (passed < step) continue;
     passed -= step;
-    sparse_.push_back({p.x, p.y, step});
+    sparse_.push_back({p.x, p.y, step, p.nx, p.ny});
   }
   if (sparse_.empty()) sparse_.assign(points.begin(), points.end());
   weight_of_sparse_ = total / static_cast<double>(sparse_.size());
@@ -186,6 +186,17 @@ ScanMatcher::Candidate ScanMatcher::search_all(double half_xy_cells, double half
   return best;
 }
 
+/// The search takes the best cell, also in directions that the scan's surfaces leave open, as along a bare
+/// corridor, where one cell is as good as another: there the prior knows better.
+Pose2 ScanMatcher::along_prior(const Pose2& found, const Eigen::Matrix3d& prior_info) const {
+  const Pose2& prior = expected_.window_T_robot;
+  const HitFit fit = fit_to_hits(fine_, sparse_, found);
+  const Eigen::Vector3d off(prior.x - found.x, prior.y - found.y, turn(found.yaw, prior.yaw));
+  const Eigen::Vector3d step = (kEvidence * fit.information + prior_info).ldlt().solve(prior_info * off);
+  const Pose2 pose{found.x + step.x(), found.y + step.y(), found.yaw + step.z()};
+  return is_finite(pose) ? pose : found;
+}
+
 /// Newton steps up the sum of weight * smooth hit, with the prior, all in cells: with some points until it
 /// settles, then with all. Hits that are not on the map, a person's say, lie where the map is flat: they push
 /// nowhere. `information` is the prior's, and becomes that of the result.
@@ -193,7 +204,8 @@ Pose2 ScanMatcher::refine(std::span<const MatchPoint> points, const Pose2& start
                           Eigen::Matrix3d& information) const {
   const Pose2& prior = expected_.window_T_robot;
   const Eigen::Matrix3d prior_info = information;
-  Pose2 pose = start;
+  const Pose2 begun = along_prior(start, prior_info);
+  Pose2 pose = begun;
   int last_steps = kLastSteps;
   for (int iteration = 0; iteration < kMostIterations && last_steps > 0; ++iteration) {
     const bool settled = last_steps < kLastSteps;
@@ -202,8 +214,8 @@ Pose2 ScanMatcher::refine(std::span<const MatchPoint> points, const Pose2& start
     information = kEvidence * fit.information + prior_info;
     const Eigen::Vector3d step = information.ldlt().solve(kEvidence * fit.gradient + prior_info * off);
     pose = {pose.x + step.x(), pose.y + step.y(), pose.yaw + step.z()};
-    const bool strayed = std::abs(pose.x - start.x) > kStray || std::abs(pose.y - start.y) > kStray ||
-                         std::abs(pose.yaw - start.yaw) * far_cells_ > kStray;
+    const bool strayed = std::abs(pose.x - begun.x) > kStray || std::abs(pose.y - begun.y) > kStray ||
+                         std::abs(pose.yaw - begun.yaw) * far_cells_ > kStray;
     if (strayed || !is_finite(pose)) return start;
     const double moved = std::max(step.head<2>().norm(), std::abs(step.z()) * far_cells_);
     if (settled || moved < kSettled || iteration + kLastSteps >= kMostIterations) --last_steps;

@@ -72,6 +72,7 @@ class ScanMatcher {
                                 double cell_factor, std::size_t candidates);
   Candidate search_all(double half_xy_cells, double half_yaw_rad);
   void choose_sparse(std::span<const MatchPoint> points);
+  Pose2 along_prior(const Pose2& found, const Eigen::Matrix3d& prior_info) const;
   Pose2 refine(std::span<const MatchPoint> points, const Pose2& start, Eigen::Matrix3d& information) const;
   void judge(const ChunkedGrid& map, const Pose2& map_T_robot_cells, MatchResult& result) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam/smooth_hits.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -80,7 +81,8 @@ inline Floats4 blend(const Patch& p, Floats4 w) {
 struct Sums {
   float xx = 0, xy = 0, xt = 0, yy = 0, yt = 0, tt = 0, gx = 0, gy = 0, gt = 0, score = 0;
 
-  void add(const Patch& patch, float rx, float ry, float weight) {
+  /// `nx`, `ny`: the point's surface runs across this direction, and tells of nothing else; 0, 0: not known.
+  void add(const Patch& patch, float rx, float ry, float weight, float nx, float ny) {
     const Spline& along_x = spline_near(patch.tx);
     const Spline& along_y = spline_near(patch.ty);
     const Floats4 value = blend(patch, along_y.value), rise = blend(patch, along_y.slope),
@@ -93,6 +95,14 @@ struct Sums {
     const Floats4 rest = lane_sums(rise * along_x.slope, bend * along_x.value, Floats4{}, Floats4{}) / 255.0F;
     const float fxy = rest[0], fyy = rest[1];
     const float a = fx * fx / f - fxx, b = fx * fy / f - fxy, c = fy * fy / f - fyy;
+    score += weight * f;
+    if (nx != 0 || ny != 0) {
+      const float slope = weight * (fx * nx + fy * ny);
+      const float curve = weight * std::max(0.0F, a * nx * nx + 2 * b * nx * ny + c * ny * ny);
+      add_curvature(curve * nx * nx, curve * nx * ny, curve * ny * ny, rx, ry);
+      gx += slope * nx, gy += slope * ny, gt += slope * (ny * rx - nx * ry);
+      return;
+    }
     // Only what curves down counts: the larger eigenvalue is kept when the smaller is negative.
     const float mean = 0.5F * (a + c), spread = std::sqrt(0.25F * (a - c) * (a - c) + b * b);
     if (mean + spread <= 0) {
@@ -104,7 +114,6 @@ struct Sums {
       add_curvature(kept * (a - mean + spread), kept * b, kept * (c - mean + spread), rx, ry);
     }
     gx += weight * fx, gy += weight * fy, gt += weight * (fy * rx - fx * ry);
-    score += weight * f;
   }
 
   /// Carries the curvature in x and y over to the turn, which moves a point by (-ry, rx) a radian.
@@ -131,7 +140,8 @@ HitFit fit_to_hits(const HitWindow& window, std::span<const MatchPoint> points, 
   Patch patch;
   for (const MatchPoint& p : points) {
     const float rx = c * p.x - s * p.y, ry = s * p.x + c * p.y;
-    if (load_patch(window, x0 + rx, y0 + ry, patch)) sums.add(patch, rx, ry, p.weight);
+    if (!load_patch(window, x0 + rx, y0 + ry, patch)) continue;
+    sums.add(patch, rx, ry, p.weight, c * p.nx - s * p.ny, s * p.nx + c * p.ny);
   }
   HitFit fit;
   fit.information << sums.xx, sums.xy, sums.xt, sums.xy, sums.yy, sums.yt, sums.xt, sums.yt, sums.tt;
