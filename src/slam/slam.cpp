@@ -40,7 +40,10 @@ std::optional<ScanResult> Slam::next(bool at_end) {
 /// Hands complete local maps to the back end, and lets what it found out reach the poses when that is due.
 void Slam::close_loops() {
   while (const auto complete = front_end_.take_complete()) {
-    if (!config_.close_loops) continue;  // nobody needs them
+    if (!config_.close_loops) {  // nobody needs them, and nobody will know better where the robot is
+      if (front_end_.lost_since()) front_end_.found();
+      continue;
+    }
     enter("close loops");
     take_in(*complete);
   }
