@@ -59,6 +59,7 @@ class ChunkedGrid {
   ChunkedGrid& operator=(ChunkedGrid&&) = default;
 
   double cell_size_m() const { return cell_size_m_; }
+  std::size_t max_chunks() const { return max_chunks_; }
   const ChunkBox& box() const { return box_; }
   const Chunk* find(ChunkIndex index) const { return table_.find(index); }
 

@@ -44,6 +44,11 @@ void BackEnd::finish(const LocalMap& map) {
   retire_unneeded(map.id);
 }
 
+void BackEnd::distrust_imu() {
+  graph_.remove_turn_edges();
+  last_heading_rad_.reset();
+}
+
 void BackEnd::preview(const LocalMap& map) {
   drop_preview();
   global_map_.redraw(std::numeric_limits<std::size_t>::max());  // names are only taken out without it

@@ -27,6 +27,9 @@ class BackEnd {
   /// Takes in the next local map, in order of id.
   void finish(const LocalMap& map);
 
+  /// Takes back what the IMU said: it was found to be wrong.
+  void distrust_imu();
+
   /// Shows what there is of the next one until it is complete.
   void preview(const LocalMap& map);
   /// Draws all that changed; returns the chunks that look different from when this was called last.

@@ -20,6 +20,8 @@ constexpr double kFarthestOdometry_m = 1e7;
 /// Less than this since the last scan that counted: the robot stands.
 constexpr double kStanding_m = 0.02;
 constexpr double kStanding_rad = 0.01;
+/// How far the norm of an orientation may be from one.
+constexpr double kUnitNorm = 0.05;
 /// After so many scans that the map does not explain, or so long a way, a new map begins where motion sensors
 /// say the robot is.
 constexpr int kMostUnmatched = 20;
@@ -28,6 +30,8 @@ constexpr double kMostBlind_m = 1.0;
 /// fits so much better.
 constexpr double kPoorlyMatched = 0.65;
 constexpr double kPoorScore = 0.65;  ///< of the usual
+/// With less than this of the usual score it is not this place.
+constexpr double kLeastScore = 0.4;
 constexpr double kClearlyBetter = 0.2;
 /// How fast the usual hit and score follow the scans.
 constexpr double kUsualShare = 0.2;
@@ -87,6 +91,11 @@ FrontEnd::FrontEnd(const SlamConfig& config, StageWatch* watch)
 }
 
 void FrontEnd::add(const ImuSample& sample) {
+  const auto norm = sample.world_q_robot.norm();
+  if (!(std::abs(norm - 1.0) < kUnitNorm)) {  // nor what is not a number
+    counters_.add("imu.nonsense");
+    return;
+  }
   note_time(sample.stamp);
   motion_.add(sample);
 }
@@ -170,8 +179,12 @@ void FrontEnd::compare_sensors(const Fix& fix, Time t) {
   const Time before = motion_.last_time();
   agreement_.note(motion_.last_pose().inverse() * fix.map_T_robot, motion_.imu_turn(before, t),
                   motion_.wheel_motion(before, t));
-  if (agreement_.imu_turns_backwards()) motion_.distrust_imu();
+  if (agreement_.imu_turns_backwards() || agreement_.imu_hangs()) motion_.distrust_imu();
   if (agreement_.wheels_turn_backwards() || agreement_.wheels_drive_backwards()) motion_.distrust_wheels();
+  for (std::string& f : agreement_.findings()) {  // once found it stays found: the sensor is not asked again
+    if (std::find(findings_.begin(), findings_.end(), f) == findings_.end())
+      findings_.push_back(std::move(f));
+  }
 }
 
 /// Counts scans that the map does not explain; after too many, or too long a way, a new map begins. A scan
@@ -252,7 +265,7 @@ FrontEnd::Fix FrontEnd::locate(const CorrectedScan& scan) {
   fix.match = match(prior);
   if (motion_.wheels_leap(scan.reference)) look_along_wheels(scan.reference, fix);
   if (is_doubtful(fix.match)) look_about(scan.reference, fix);
-  fix.matched = is_believable(fix.match);
+  fix.matched = is_believable(fix.match) && fix.match.score >= kLeastScore * usual_score_;
   fix.map_T_robot = fix.matched ? fix.match.map_T_robot : prior.map_T_robot;
   if (!is_within(fix.map_T_robot, kFarthest_m)) {
     counters_.add("slam.nonsense_poses");

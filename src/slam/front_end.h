@@ -73,7 +73,9 @@ class FrontEnd {
   std::size_t local_maps_begun() const { return next_id_; }
   std::size_t waiting() const { return waiting_.size(); }
   /// What is wrong with the sensors' mounting, in words for the user.
-  std::vector<std::string> findings() const { return agreement_.findings(); }
+  const std::vector<std::string>& findings() const { return findings_; }
+  /// Whether the IMU's heading is believed.
+  bool trusts_imu() const { return motion_.trusts_imu(); }
   /// Weather: what was skipped, smoothed, refused.
   Counters counters() const;
 
@@ -115,6 +117,7 @@ class FrontEnd {
   StageWatch* watch_;
   MotionModel motion_;
   SensorAgreement agreement_;
+  std::vector<std::string> findings_;
   ScanMatcher matcher_;
   FreeSpace free_space_;
   std::deque<Scan> waiting_;

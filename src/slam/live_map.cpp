@@ -7,7 +7,8 @@
 namespace dynslam {
 namespace {
 
-constexpr int kSameSurface = 2;  ///< cells
+constexpr int kSameSurface = 2;         ///< cells
+constexpr std::uint8_t kClearly = 128;  ///< two looks at the least
 
 /// Whether the words of a bitmap in one chunk hold anything.
 bool any_in(const CellBitmap& cells, ChunkIndex chunk) {
@@ -24,11 +25,36 @@ void LiveMap::redrawn(std::span<const DrawnChunk> chunks) {
     drawn_[c.index] = c;
     scanned_.insert(c.index);
   }
-  for (const ChunkIndex index : scanned_) {
-    const auto it = drawn_.find(index);
-    waiting_.push_back(it != drawn_.end() ? it->second : DrawnChunk{index});
-  }
+  for (const ChunkIndex index : scanned_) waiting_.push_back(with_recent(index));
   scanned_.clear();
+  recent_ = ChunkedGrid(grid_.cell_size_m(), recent_.max_chunks(), kRecentRule);
+}
+
+/// What the back end drew, and what the scans since the last time say against it.
+DrawnChunk LiveMap::with_recent(ChunkIndex index) const {
+  const auto it = drawn_.find(index);
+  DrawnChunk out = it != drawn_.end() ? it->second : DrawnChunk{index};
+  const Chunk* seen = recent_.find(index);
+  if (!seen) return out;
+  const CellIndex first = first_cell(index);
+  for (int y = 0; y < kChunkSide; ++y) {
+    const auto row = static_cast<std::size_t>(y);
+    for (int x = 0; x < kChunkSide; ++x) {
+      const std::uint64_t bit = std::uint64_t{1} << x;
+      const std::uint8_t hit = seen->hit[y][x], miss = seen->miss[y][x];
+      const CellState state = cell_state(hit, miss);
+      if (state == CellState::kFree && miss >= kClearly) {
+        out.free[row] |= bit;
+        out.occupied[row] &= ~bit;
+      } else if (state == CellState::kOccupied && hit >= kClearly) {
+        const CellIndex cell{first.x + x, first.y + y};
+        if (surface_near(cell) != cell) continue;
+        out.occupied[row] |= bit;
+        out.free[row] &= ~bit;
+      }
+    }
+  }
+  return out;
 }
 
 void LiveMap::show(std::size_t most_chunks) {
@@ -54,6 +80,7 @@ void LiveMap::draw(const ScanFootprint& scan) {
   std::sort(hits_.begin(), hits_.end());
   hits_.erase(std::unique(hits_.begin(), hits_.end()), hits_.end());
   grid_.apply(scan.misses, hits_);
+  recent_.apply(scan.misses, hits_);
 }
 
 bool LiveMap::is_surface(CellIndex c) const {

@@ -13,12 +13,14 @@
 
 namespace dynslam {
 
-/// The map as it is now: what the back end has drawn, with the newest scans on top. What scans left there is
-/// taken off again when the back end has drawn the place anew with all that is known by then, so that
-/// nothing but finished work stays. One thread.
+/// The map as it is now: what the back end has drawn, with the newest scans on top. When the back end has
+/// drawn anew, what older scans left there is taken off again, so that nothing but finished work stays; what
+/// the scans since the drawing before said last, two looks or more, is put on top once more: the back
+/// end weighs a local map as a whole and is slow to see that something came or went. One thread.
 class LiveMap {
  public:
-  LiveMap(double cell_size_m, std::size_t max_chunks) : grid_(cell_size_m, max_chunks) {}
+  LiveMap(double cell_size_m, std::size_t max_chunks)
+      : grid_(cell_size_m, max_chunks), recent_(cell_size_m, max_chunks, kRecentRule) {}
 
   /// The back end has drawn these chunks anew, and others need no change.
   void redrawn(std::span<const DrawnChunk> chunks);
@@ -33,10 +35,15 @@ class LiveMap {
   std::size_t waiting() const { return waiting_.size(); }
 
  private:
+  /// The last two looks outweigh all before them.
+  static constexpr CellRule kRecentRule{.gain = 64, .loss = 64};
+
+  DrawnChunk with_recent(ChunkIndex index) const;
   CellIndex surface_near(CellIndex hit) const;
   bool is_surface(CellIndex c) const;
 
   ChunkedGrid grid_;
+  ChunkedGrid recent_;                      ///< the scans since the back end drew last
   std::map<ChunkIndex, DrawnChunk> drawn_;  ///< by the back end
   std::deque<DrawnChunk> waiting_;
   std::set<ChunkIndex> scanned_;  ///< chunks that scans changed since

@@ -51,6 +51,7 @@ class MotionModel {
   /// Takes the vote from a sensor that was found to contradict the lidar. Tilt stays in use.
   void distrust_imu() { imu_trusted_ = false; }
   void distrust_wheels() { wheels_trusted_ = false; }
+  bool trusts_imu() const { return imu_trusted_; }
 
   /// The scan of time `t` was taken here: the velocity follows.
   void fix(Time t, const Pose2& map_T_robot);

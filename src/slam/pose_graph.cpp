@@ -172,4 +172,8 @@ std::optional<Eigen::Matrix3d> PoseGraph::relative_covariance(std::uint32_t a, s
   return found == chains.end() ? std::nullopt : std::optional(found->second.covariance);
 }
 
+void PoseGraph::remove_turn_edges() {
+  std::erase_if(edges_, [](const auto& edge) { return edge.first.kind == EdgeKind::kTurn; });
+}
+
 }  // namespace dynslam

@@ -71,6 +71,9 @@ class PoseGraph {
   /// What the IMU says of the turn from a to b: a weak prior, as it drifts.
   bool add_turn_edge(std::uint32_t a, std::uint32_t b, double yaw_a_to_b_rad, double sigma_rad);
 
+  /// Takes all that the IMU said back.
+  void remove_turn_edges();
+
   /// Solves from the present poses; lets go the loops that stay far off, the farthest first, and solves
   /// again.
   PoseGraphSummary solve();

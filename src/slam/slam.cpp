@@ -56,6 +56,7 @@ void Slam::close_loops() {
 }
 
 void Slam::take_in(const LocalMap& complete) {
+  if (!front_end_.trusts_imu()) back_end_.distrust_imu();
   back_end_.finish(complete);
   if (back_end_.knows_since(front_end_.lost_since())) front_end_.found();
   Correction correction{visits_.size() + static_cast<std::size_t>(config_.correction_delay_scans),

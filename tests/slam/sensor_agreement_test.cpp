@@ -62,9 +62,21 @@ TEST(SensorAgreement, NamesWheelsThatTurnOrDriveTheOtherWay) {
   EXPECT_THAT(drive.agreement.findings(), SizeIs(2));
 }
 
-TEST(SensorAgreement, DoesNotBlameASensorThatStandsStill) {
+TEST(SensorAgreement, NamesAnImuThatHangsAlsoAfterItWentWell) {
+  Drive drive;
+  drive.go(500);
+  drive.imu_sign = 0;
+  drive.go(5);
+  EXPECT_FALSE(drive.agreement.imu_hangs()) << "too early to say";
+  SensorAgreement hangs = drive.agreement;
+  for (int i = 0; i < 10; ++i) hangs.note({0.04, 0, 0.08}, 0.0, std::nullopt);
+  ASSERT_THAT(hangs.findings(), SizeIs(1));
+  EXPECT_THAT(hangs.findings().front(), HasSubstr("hangs"));
+}
+
+TEST(SensorAgreement, DoesNotBlameWheelsThatStandStill) {
   SensorAgreement agreement;
-  for (int i = 0; i < 500; ++i) agreement.note({0.04, 0, 0.1}, 0.0, Pose2{});
+  for (int i = 0; i < 500; ++i) agreement.note({0.04, 0, 0.1}, 0.1, Pose2{});
   EXPECT_THAT(agreement.findings(), IsEmpty());
 }
 

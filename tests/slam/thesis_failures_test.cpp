@@ -289,7 +289,6 @@ TEST(ThesisFailures, AParkedObjectThatLeavesIsGoneWithinASecond) {
 }
 
 TEST(ThesisFailures, AParkedObjectThatLeavesDoesNotComeBackWhileTheRobotGoesOn) {
-  GTEST_SKIP() << "a redraw shows it again for 0.7 s, up to 3 s after it left";
   for (const double waited_s : {6.0, 7.0, 8.0}) {
     ParkedBox parked(false);
     parked.park();
@@ -305,7 +304,6 @@ TEST(ThesisFailures, AParkedObjectThatLeavesDoesNotComeBackWhileTheRobotGoesOn) 
 }
 
 TEST(ThesisFailures, AParkedObjectIsThereWithinASecondAndStaysWhileTheRobotGoesOn) {
-  GTEST_SKIP() << "a redraw forgets the scans of the last second: it takes 1.7 s";
   ParkedBox parked(false);
   parked.park();
   for (double after_s = 1.0; after_s < 6.0; after_s += 0.1) {
@@ -397,7 +395,6 @@ TEST(ThesisFailures, ADoorLeavesNoFanBehind) {
 }
 
 TEST(ThesisFailures, ADoorLeavesNoFanBehindWhileTheRobotGoesOn) {
-  GTEST_SKIP() << "a redraw shows an earlier leaf again for 0.7 s";
   Doorway door(false);
   for (const double deg : {60.0, 30.0, 0.0, 90.0}) {
     door.swing_to(deg);
@@ -428,7 +425,6 @@ TEST(ThesisFailures, AClosedDoorIsAWallAndAnOpenOneAWay) {
 }
 
 TEST(ThesisFailures, TheWayThroughADoorStaysOpenWhenTheRobotGoesOn) {
-  GTEST_SKIP() << "a redraw shows the closed door again for 0.6 s, 2 s after it was opened";
   Doorway door(false);
   door.swing_to(0);
   door.wait(6.0);
