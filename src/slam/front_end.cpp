@@ -31,7 +31,7 @@ constexpr double kMostBlind_m = 1.0;
 constexpr double kPoorlyMatched = 0.65;
 constexpr double kPoorScore = 0.65;  ///< of the usual
 /// With less than this of the usual score it is not this place.
-constexpr double kLeastScore = 0.5;
+constexpr double kLeastScore = 0.42;
 constexpr double kClearlyBetter = 0.2;
 /// How fast the usual hit and score follow the scans.
 constexpr double kUsualShare = 0.2;
