@@ -30,7 +30,8 @@ constexpr double kMostBlind_m = 1.0;
 /// fits so much better.
 constexpr double kPoorlyMatched = 0.65;
 constexpr double kPoorScore = 0.65;  ///< of the usual
-/// With less than this of the usual score it is not this place.
+/// With less than this of the usual score a place that the map knows is not this one.
+constexpr double kAllKnown = 0.85;
 constexpr double kLeastScore = 0.42;
 constexpr double kClearlyBetter = 0.2;
 /// How fast the usual hit and score follow the scans.
@@ -265,7 +266,7 @@ FrontEnd::Fix FrontEnd::locate(const CorrectedScan& scan) {
   fix.match = match(prior);
   if (motion_.wheels_leap(scan.reference)) look_along_wheels(scan.reference, fix);
   if (is_doubtful(fix.match)) look_about(scan.reference, fix);
-  fix.matched = is_believable(fix.match) && fix.match.score >= kLeastScore * usual_score_;
+  fix.matched = is_believable(fix.match) && !is_elsewhere(fix.match);
   fix.map_T_robot = fix.matched ? fix.match.map_T_robot : prior.map_T_robot;
   if (!is_within(fix.map_T_robot, kFarthest_m)) {
     counters_.add("slam.nonsense_poses");
@@ -279,6 +280,11 @@ FrontEnd::Fix FrontEnd::locate(const CorrectedScan& scan) {
 /// Less of the scan lies on the map than should, or it lies there worse than the scans before.
 bool FrontEnd::is_doubtful(const MatchResult& match) const {
   return match.matched < kPoorlyMatched || match.score < kPoorScore * usual_score_;
+}
+
+/// The map knows all of the place and explains the scan badly.
+bool FrontEnd::is_elsewhere(const MatchResult& match) const {
+  return match.known > kAllKnown && match.score < kLeastScore * usual_score_;
 }
 
 void FrontEnd::note_usual(const MatchResult& match) {

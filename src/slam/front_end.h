@@ -96,6 +96,7 @@ class FrontEnd {
   Fix locate(const CorrectedScan& scan);
   MatchResult match(MatchPrior prior);
   bool is_doubtful(const MatchResult& match) const;
+  bool is_elsewhere(const MatchResult& match) const;
   void note_usual(const MatchResult& match);
   void look_along_wheels(Time t, Fix& fix);
   void look_about(Time t, Fix& fix);
