@@ -74,7 +74,13 @@ void Slam::draw(const FrontEndResult& fix) {
   if (config_.close_loops && !following_) return;
   enter("draw");
   map_.show(kChunksATurn);
-  if (fix.inserted) map_.draw(front_end_.footprint_in(map_T_drawn_));
+  if (!fix.inserted) return;
+  const ScanFootprint& scan = front_end_.footprint_in(map_T_drawn_);
+  if (config_.close_loops) {
+    map_.draw(scan);
+  } else {
+    map_.grid().apply(scan);  // there is nothing that it would be put on top of
+  }
 }
 
 void Slam::finish() {
