@@ -9,7 +9,7 @@ namespace dynslam {
 namespace {
 
 // More effort takes several times longer for a few percent: maps are mostly flat.
-constexpr int kEffort = 4;
+constexpr int kEffort = 2;
 
 // libpng reports errors by longjmp to the setjmp of the call in progress; exceptions must not cross its C
 // frames.

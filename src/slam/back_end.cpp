@@ -25,7 +25,7 @@ constexpr double kLost_rad = 0.3;
 constexpr double kTurn_rad = 0.01;
 constexpr double kTurnDrift_radps = 0.0005;
 
-constexpr std::size_t kBlocksATurn = 150;
+constexpr std::size_t kBlocksATurn = 60;
 
 }  // namespace
 
