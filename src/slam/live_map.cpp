@@ -27,6 +27,22 @@ void LiveMap::redrawn(std::span<const DrawnChunk> chunks) {
   }
   for (const ChunkIndex index : scanned_) waiting_.push_back(with_recent(index));
   scanned_.clear();
+  forget_recent();
+}
+
+void LiveMap::settle(std::span<const DrawnChunk> chunks) {
+  forget_recent();
+  waiting_.clear();
+  for (const DrawnChunk& c : chunks) drawn_[c.index] = c;
+  for (std::int32_t y = grid_.box().min.y; y <= grid_.box().max.y; ++y) {
+    for (std::int32_t x = grid_.box().min.x; x <= grid_.box().max.x; ++x) {
+      if (grid_.find({x, y}) && !drawn_.contains({x, y})) grid_.show({x, y}, {}, {});
+    }
+  }
+  for (const auto& [index, c] : drawn_) grid_.show(index, c.free, c.occupied);
+}
+
+void LiveMap::forget_recent() {
   recent_ = ChunkedGrid(grid_.cell_size_m(), recent_.max_chunks(), kRecentRule);
 }
 

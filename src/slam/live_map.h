@@ -24,6 +24,8 @@ class LiveMap {
 
   /// The back end has drawn these chunks anew, and others need no change.
   void redrawn(std::span<const DrawnChunk> chunks);
+  /// The back end has had its last word: shows what it drew and nothing else.
+  void settle(std::span<const DrawnChunk> chunks);
   /// Lets up to so many of them in, oldest first.
   void show(std::size_t most_chunks);
   /// A scan, in the map's frame. A hit within two cells of a surface that is drawn already is a hit of that
@@ -38,6 +40,7 @@ class LiveMap {
   /// The last two looks outweigh all before them.
   static constexpr CellRule kRecentRule{.gain = 64, .loss = 64};
 
+  void forget_recent();
   DrawnChunk with_recent(ChunkIndex index) const;
   CellIndex surface_near(CellIndex hit) const;
   bool is_surface(CellIndex c) const;

@@ -89,8 +89,7 @@ void Slam::finish() {
   while (const auto complete = front_end_.take_complete()) back_end_.finish(*complete);
   for (const Correction& c : corrections_) map_.redrawn(c.chunks);
   corrections_.clear();
-  map_.redrawn(back_end_.draw());
-  map_.show(map_.waiting());
+  map_.settle(back_end_.draw());
 }
 
 std::vector<StampedFix> Slam::trajectory() const {

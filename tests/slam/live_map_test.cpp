@@ -63,6 +63,19 @@ TEST(LiveMap, WhatAppearsIsThereAtOnceAndGoesWhenItIsNotSeenAgain) {
   EXPECT_EQ(map.grid().state({-20, -20}), CellState::kUnknown);
 }
 
+TEST(LiveMap, NothingOfScansIsLeftInTheEnd) {
+  LiveMap map(0.02, 100);
+  map.redrawn(std::vector{wall_in({0, 0})});
+  map.show(1);
+  for (int i = 0; i < 12; ++i) map.draw(scan({{30, 8}}, {{-20, -20}, {5, 20}}));
+  map.settle(std::vector{wall_in({1, 0})});
+  EXPECT_EQ(map.grid().state({30, 8}), CellState::kFree);
+  EXPECT_EQ(map.grid().state({5, 20}), CellState::kOccupied);
+  EXPECT_EQ(map.grid().state({-20, -20}), CellState::kUnknown);
+  EXPECT_EQ(map.grid().state({70, 20}), CellState::kOccupied) << "the last word counts";
+  EXPECT_EQ(map.waiting(), 0U);
+}
+
 TEST(LiveMap, AWallThatIsGoneIsGoneAfterAFewScans) {
   LiveMap map(0.02, 100);
   map.redrawn(std::vector{wall_in({0, 0})});
