@@ -135,6 +135,7 @@ void GraphDrawing::begin(double height) {
   svg_ << "<svg xmlns='http://www.w3.org/2000/svg' width='" << kWidth << "' height='" << height
        << "' viewBox='0 0 " << kWidth << ' ' << height << "' font-family='sans-serif' font-size='15'"
        << " fill='#1e2633'>\n<title>The pose graph</title>\n<style>\n"
+       << ":root{max-width:100%;height:auto}\n"  // fits a phone, too
        << "path{fill:none;stroke-linejoin:round}\n";
   const auto line = [&](const char* kind, const char* colour, double width, const char* more) {
     svg_ << '.' << kind << "{stroke:" << colour << ";stroke-width:" << width * line_ << more << "}\n";
