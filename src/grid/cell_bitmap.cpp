@@ -23,23 +23,18 @@ std::size_t CellBitmap::count() const {
   return n;
 }
 
-CellBitmap CellBitmap::grown(int times) const {
-  CellBitmap result = *this;
-  for (int t = 0; t < times; ++t) {
-    const CellBitmap before = result;
-    for (int r = 0; r < rows(); ++r) {
-      std::uint64_t* row_out = result.row(r);
-      for (int w = 0; w < words_per_row_; ++w) {
-        const std::uint64_t here = before.row(r)[w];
-        const std::uint64_t left = w > 0 ? before.row(r)[w - 1] >> 63 : 0;
-        const std::uint64_t right = w + 1 < words_per_row_ ? before.row(r)[w + 1] << 63 : 0;
-        const std::uint64_t below = r > 0 ? before.row(r - 1)[w] : 0;
-        const std::uint64_t above = r + 1 < rows() ? before.row(r + 1)[w] : 0;
-        row_out[w] |= here << 1 | left | here >> 1 | right | below | above;
-      }
-    }
-  }
-  return result;
+CellTile CellBitmap::tile(ChunkIndex chunk) const {
+  CellTile tile;
+  const int first_row = (chunk.y - box_.min.y) * kChunkSide;
+  for (int r = 0; r < kChunkSide; ++r)
+    tile[static_cast<std::size_t>(r)] = row(first_row + r)[chunk.x - box_.min.x];
+  return tile;
+}
+
+void CellBitmap::put(ChunkIndex chunk, const CellTile& tile) {
+  const int first_row = (chunk.y - box_.min.y) * kChunkSide;
+  for (int r = 0; r < kChunkSide; ++r)
+    row(first_row + r)[chunk.x - box_.min.x] = tile[static_cast<std::size_t>(r)];
 }
 
 }  // namespace dynslam

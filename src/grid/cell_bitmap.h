@@ -36,10 +36,11 @@ class CellBitmap {
   const std::uint64_t* row(int r) const {
     return &words_[static_cast<std::size_t>(r) * static_cast<std::size_t>(words_per_row_)];
   }
-  std::size_t count() const;
+  /// The cells of one chunk. REQUIRES (both): box() holds it.
+  CellTile tile(ChunkIndex chunk) const;
+  void put(ChunkIndex chunk, const CellTile& tile);
 
-  /// This set grown by its neighbours up, down, left and right, `times` over; within the rectangle.
-  CellBitmap grown(int times) const;
+  std::size_t count() const;
 
  private:
   std::uint64_t& word(CellIndex c) { return row(c.y - first().y)[(c.x >> kChunkBits) - box_.min.x]; }

@@ -18,14 +18,6 @@ constexpr CellTile filled(std::uint64_t word) {
 constexpr CellTile kClearTile = filled(0);
 constexpr CellTile kFullTile = filled(kFull);
 
-CellTile cut(const CellBitmap& cells, ChunkIndex chunk) {
-  CellTile tile;
-  const int first_row = (chunk.y - cells.box().min.y) * kChunkSide;
-  for (int r = 0; r < kChunkSide; ++r)
-    tile[static_cast<std::size_t>(r)] = cells.row(first_row + r)[chunk.x - cells.box().min.x];
-  return tile;
-}
-
 ChunkBox box_of_what_is_set(const CellBitmap& cells) {
   ChunkBox box;
   for (int r = 0; r < cells.rows(); ++r) {
@@ -41,7 +33,7 @@ ChunkBox box_of_what_is_set(const CellBitmap& cells) {
 TiledBitmap::TiledBitmap(const CellBitmap& cells) : box_(box_of_what_is_set(cells)) {
   places_.reserve(static_cast<std::size_t>(box_.width()) * static_cast<std::size_t>(box_.height()));
   for (std::int32_t y = box_.min.y; y <= box_.max.y; ++y) {
-    for (std::int32_t x = box_.min.x; x <= box_.max.x; ++x) add(cut(cells, {x, y}));
+    for (std::int32_t x = box_.min.x; x <= box_.max.x; ++x) add(cells.tile({x, y}));
   }
   tiles_.shrink_to_fit();
 }

@@ -48,18 +48,6 @@ void put(CellTile& tile, CellIndex first, const BlockView::Rows& rows, int side)
   }
 }
 
-void paste(const CellTile& tile, ChunkIndex chunk, CellBitmap& cells) {
-  const int row = (chunk.y - cells.box().min.y) * kChunkSide, word = chunk.x - cells.box().min.x;
-  for (int r = 0; r < kChunkSide; ++r) cells.row(row + r)[word] = tile[static_cast<std::size_t>(r)];
-}
-
-CellTile cut(const CellBitmap& cells, ChunkIndex chunk) {
-  CellTile tile;
-  const int row = (chunk.y - cells.box().min.y) * kChunkSide, word = chunk.x - cells.box().min.x;
-  for (int r = 0; r < kChunkSide; ++r) tile[static_cast<std::size_t>(r)] = cells.row(row + r)[word];
-  return tile;
-}
-
 }  // namespace
 
 GlobalMap::GlobalMap(double cell_size_m)
@@ -222,14 +210,14 @@ std::vector<DrawnChunk> GlobalMap::publish() {
   free.reset(box());
   occupied.reset(box());
   for (const auto& [chunk, picture] : pictures_) {
-    paste(picture.drawn.free, chunk, free);
-    paste(picture.drawn.occupied, chunk, occupied);
+    free.put(chunk, picture.drawn.free);
+    occupied.put(chunk, picture.drawn.occupied);
   }
   fill_cracks(free, occupied, kCrack);
   drop_gaps(free, occupied, kGap);
   std::vector<DrawnChunk> changed;
   for (auto& [chunk, picture] : pictures_) {
-    const DrawnChunk now{chunk, cut(free, chunk), cut(occupied, chunk)};
+    const DrawnChunk now{chunk, free.tile(chunk), occupied.tile(chunk)};
     if (now.free == picture.shown.free && now.occupied == picture.shown.occupied) continue;
     picture.shown = now;
     changed.push_back(now);
