@@ -60,11 +60,13 @@ class BackEnd {
     Pose2 anchor_T_origin;
     Pose2 drawn_T_origin;
   };
+
   void add_node(const LocalMap& map);
   void add_turn(std::uint32_t before, const LocalMap& map);
   void drop_preview();
   void settle();
   void retire_unneeded(std::uint32_t newest);
+
   PoseGraph graph_;
   LoopCloser loops_;
   GlobalMap global_map_;

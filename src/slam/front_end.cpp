@@ -128,6 +128,7 @@ FrontEndResult FrontEnd::process(const Scan& scan) {
   compare_sensors(fix, corrected.reference);
   result.inserted = may_insert(scan, fix);
   motion_.fix(corrected.reference, fix.map_T_robot);
+  // Before it may become complete and make room for the next.
   result.local_map_id = local_maps_.empty() ? next_id_ : local_maps_.front().id;
   if (result.inserted) {
     count_scan(fix, corrected.reference);

@@ -86,6 +86,11 @@ class FrontEnd {
     MatchResult match;
     bool matched = false;  ///< the map said so
   };
+  /// A scan and where it was drawn.
+  struct Drawn {
+    CorrectedScan scan;
+    Pose2 drawn_T_robot;
+  };
 
   void note_time(Time t);
   bool is_ready(const Scan& scan) const;
@@ -131,10 +136,6 @@ class FrontEnd {
   double usual_score_ = 0.0;  ///< of the scans before, on the same map
   double usual_hit_ = 0.0;    ///< see MatchPrior
   std::optional<std::uint32_t> lost_since_;
-  struct Drawn {
-    CorrectedScan scan;
-    Pose2 drawn_T_robot;
-  };
   Drawn last_drawn_;
   int unmatched_in_a_row_ = 0;
   Pose2 last_matched_;

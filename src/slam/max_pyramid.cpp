@@ -61,10 +61,6 @@ void clear_bytes(std::uint64_t chosen, std::uint8_t* bytes, int n) {
   std::memcpy(bytes, &eight, static_cast<std::size_t>(n));
 }
 
-Vector2 drawn_position(const FinishedMap& map, const CloudPoint& p) {
-  return map.drawn_T_origin * Vector2(p.x_m, p.y_m);
-}
-
 /// Of the cells from `first` on, the maxima over the rows 2 y to 2 y + 2.
 void most_of_three_rows(const MaxPyramid::Plane& plane, int y, int first, std::vector<std::uint8_t>& most) {
   const std::uint8_t* row[3];
@@ -132,13 +128,20 @@ void MaxPyramid::draw_free(const FinishedMap& map) {
   }
 }
 
+/// In base cells; nothing for what is not a number, or not well inside.
+std::optional<Vector2> MaxPyramid::base_position(const FinishedMap& map, const CloudPoint& p) const {
+  const Vector2 at = map.drawn_T_origin * Vector2(p.x_m, p.y_m) / cell_size_m_ - Vector2(first_.x, first_.y);
+  const bool inside = at.x() >= 1 && at.y() >= 1 && at.x() < width() - 1 && at.y() < height() - 1;
+  return inside ? std::optional(at) : std::nullopt;
+}
+
 /// Each point raises the nine cells around it by how near their middles are.
 void MaxPyramid::draw_surfaces(const FinishedMap& map) {
   Plane& base = planes_[0];
   for (const CloudPoint& p : map.cloud) {
-    const Vector2 at = drawn_position(map, p) / cell_size_m_;
-    const double px = at.x() - first_.x, py = at.y() - first_.y;
-    if (!(px >= 1 && py >= 1 && px < base.width - 1 && py < base.height - 1)) continue;
+    const auto at = base_position(map, p);
+    if (!at) continue;
+    const double px = at->x(), py = at->y();
     const int x0 = static_cast<int>(px), y0 = static_cast<int>(py);
     known_.set({x0, y0});
     for (int i = 0; i < 3; ++i) {
@@ -158,8 +161,9 @@ void MaxPyramid::clear_around_surfaces(const FinishedMap& map, double clear_m) {
   const double reach2 = clear_m * clear_m / (cell_size_m_ * cell_size_m_);
   std::vector<std::uint8_t> done(planes_[0].bytes.size(), 0);
   for (const CloudPoint& p : map.cloud) {
-    if (!std::isfinite(p.x_m) || !std::isfinite(p.y_m)) continue;
-    const CellIndex at = cell_of(drawn_position(map, p));
+    const auto position = base_position(map, p);
+    if (!position) continue;
+    const CellIndex at{static_cast<int>(position->x()), static_cast<int>(position->y())};
     if (std::exchange(done[static_cast<std::size_t>(planes_[0].offset(at.x, at.y))], 1) != 0) continue;
     for (int dy = -reach; dy <= reach; ++dy) {
       for (int dx = -reach; dx <= reach; ++dx) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "grid/cell_bitmap.h"
@@ -78,6 +79,7 @@ class MaxPyramid {
  private:
   void measure(const FinishedMap& map);
   void draw_free(const FinishedMap& map);
+  std::optional<Vector2> base_position(const FinishedMap& map, const CloudPoint& p) const;
   void draw_surfaces(const FinishedMap& map);
   void clear_around_surfaces(const FinishedMap& map, double clear_m);
   void stack();
