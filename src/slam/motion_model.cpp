@@ -20,6 +20,7 @@ constexpr double kLongestWay_s = 20.0;
 /// A leap of the wheels: more than this, and more than so strong an acceleration explains.
 constexpr double kLeastLeap_m = 0.1;
 constexpr double kLeapAcceleration_mps2 = 5.0;
+constexpr double kLeastLeap_rad = 0.3;
 
 constexpr double kLongestStandstill_s = 1.5;
 constexpr std::size_t kMostFixes = 64;
@@ -111,6 +112,17 @@ bool MotionModel::wheels_leap(Time t) const {
   return beyond > kLeastLeap_m + 0.5 * kLeapAcceleration_mps2 * dt * dt;
 }
 
+bool MotionModel::is_leap(Time t, const Pose2& map_T_robot) const {
+  const double dt = to_seconds(t - time_);
+  if (!has_fix_ || dt <= 0 || dt > kLongestCarryOn_s) return false;
+  const auto is_far_from = [&](const Pose2& expected) {
+    const Pose2 beyond = expected.inverse() * map_T_robot;
+    return beyond.translation().norm() > kLeastLeap_m + kLeapAcceleration_mps2 * dt * dt ||
+           std::abs(beyond.yaw) > kLeastLeap_rad + kTurnAcceleration_radps2 * dt * dt;
+  };
+  return is_far_from(pose_ * carried_on(dt)) && is_far_from(expect(t).map_T_robot);
+}
+
 std::optional<MatchPrior> MotionModel::expect_by_longer_way(Time t) const {
   if (fixes_.empty()) return std::nullopt;
   const auto wheels = wheel_motion(fixes_.front().time, t);
@@ -141,9 +153,12 @@ double MotionModel::yaw_rate(Time t) const {
   return velocity_.yaw_radps;
 }
 
-void MotionModel::fix(Time t, const Pose2& map_T_robot) {
+void MotionModel::fix(Time t, const Pose2& map_T_robot, bool seen) {
   const double dt = to_seconds(t - time_);
-  if (has_fix_ && dt > 0) {
+  if (seen) last_seen_ = t;
+  if (to_seconds(t - last_seen_) > kLongestCarryOn_s && !wheel_motion(time_, t)) {
+    velocity_ = {};
+  } else if (has_fix_ && dt > 0) {
     const Pose2 step = pose_.inverse() * map_T_robot;
     const Vector2 along = Pose2{0, 0, -0.5 * step.yaw} * step.translation();
     const double share = dt > 0.5 ? 1.0 : 0.7;  // of what one step shows, which is noisy when steps are short

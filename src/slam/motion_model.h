@@ -33,6 +33,8 @@ class MotionModel {
   /// Whether the wheels claim a leap, or a halt, that no robot makes at the speed it was seen to have: a
   /// count that stands still for a while and then catches up.
   bool wheels_leap(Time t) const;
+  /// Whether the robot cannot have come here by itself, by how it was seen to move and by all its sensors.
+  bool is_leap(Time t, const Pose2& map_T_robot) const;
   /// Where the wheels' way from a second and a half ago leads: right whether or not the robot was believed to
   /// stand while the count stood. Nothing without wheels.
   std::optional<MatchPrior> expect_by_longer_way(Time t) const;
@@ -53,8 +55,9 @@ class MotionModel {
   void distrust_wheels() { wheels_trusted_ = false; }
   bool trusts_imu() const { return imu_trusted_; }
 
-  /// The scan of time `t` was taken here: the velocity follows.
-  void fix(Time t, const Pose2& map_T_robot);
+  /// The scan of time `t` was taken here: the velocity follows. `seen`: the map said so; otherwise this is
+  /// but what was expected, and a velocity that nothing measures does not last.
+  void fix(Time t, const Pose2& map_T_robot, bool seen = true);
   bool has_fix() const { return has_fix_; }
   const Pose2& last_pose() const { return pose_; }
   Time last_time() const { return time_; }
@@ -74,6 +77,7 @@ class MotionModel {
   bool imu_trusted_ = true, wheels_trusted_ = true;
   bool has_fix_ = false;
   Time time_;
+  Time last_seen_;  ///< a fix by the map
   Pose2 pose_;
   Velocity velocity_;
   struct Fix {

@@ -31,6 +31,29 @@ TEST(MotionModel, CarriesOnAtTheLastVelocityWithNothingElse) {
   EXPECT_GT(late.sigma_xy_m, 10 * soon.sigma_xy_m);
 }
 
+/// As `driven`, at 0.5 rad/s; from then on the map does not say where the robot is.
+MotionModel driven_blindly(double until_s, bool has_wheels) {
+  MotionModel motion = driven(0.5);
+  for (int i = 0; has_wheels && i <= 100; ++i)
+    motion.add(OdometrySample{time_at_s(0.1 * i), {0.02 * i, 0, 0}});
+  for (double t_s = 1.1; t_s < until_s + 0.01; t_s += 0.1)
+    motion.fix(time_at_s(t_s), motion.expect(time_at_s(t_s)).map_T_robot, false);
+  return motion;
+}
+double turned_in_next_step(const MotionModel& motion) {
+  return turn(motion.last_pose().yaw, motion.expect(motion.last_time() + from_seconds(0.1)).map_T_robot.yaw);
+}
+
+TEST(MotionModel, AVelocityThatNothingMeasuresDoesNotLast) {
+  EXPECT_NEAR(turned_in_next_step(driven_blindly(1.5, false)), 0.05, 1e-6);
+  EXPECT_NEAR(turned_in_next_step(driven_blindly(2.5, false)), 0.0, 1e-6);
+  const MotionModel stands = driven_blindly(4.0, false);
+  EXPECT_LT((stands.last_pose().translation() - driven_blindly(2.5, false).last_pose().translation()).norm(),
+            1e-6);
+  EXPECT_NEAR(driven_blindly(4.0, true).motion_around(time_at_s(4.0))(time_at_s(4.05)).x, 0.01, 0.001)
+      << "the wheels measure it";
+}
+
 TEST(MotionModel, TakesTheTurnFromTheImu) {
   MotionModel motion = driven(0);
   for (int i = 0; i <= 120; ++i) motion.add(heading(0.01 * i, 2.0 + 0.008 * i));
@@ -127,6 +150,20 @@ TEST(MotionModel, TellsALeapOfTheWheelsFromDriving) {
   EXPECT_FALSE(leaps({0.3, 0, 0}, 0.5)) << "in half a second, it may";
   EXPECT_FALSE(leaps({3.0, 0, 0}, 2.0)) << "after so long, no velocity lasts";
   EXPECT_FALSE(driven(0).wheels_leap(time_at_s(1.1))) << "without wheels";
+}
+
+TEST(MotionModel, TellsALeapOfTheRobotFromDriving) {
+  const auto leaps = [](const Pose2& step, double dt_s) {
+    return driven(0).is_leap(time_at_s(1.0 + dt_s), Pose2{0.5, 0, 0} * step);
+  };
+  EXPECT_FALSE(leaps({0.05, 0, 0}, 0.1));
+  EXPECT_FALSE(leaps({0.0, 0, 0}, 0.1)) << "a sudden halt";
+  EXPECT_FALSE(leaps({0.05, 0, 0.2}, 0.1));
+  EXPECT_TRUE(leaps({0.05, 0, 0.5}, 0.1));
+  EXPECT_TRUE(leaps({0.05, 0.3, 0}, 0.1));
+  EXPECT_FALSE(leaps({1.0, 0, 1.0}, 0.6)) << "in so long, it may";
+  EXPECT_FALSE(leaps({3.0, 0, 0}, 2.0)) << "after so long, no velocity lasts";
+  EXPECT_FALSE(MotionModel().is_leap(time_at_s(1), {5, 5, 0})) << "from nowhere";
 }
 
 TEST(MotionModel, KnowsTheMotionInsideAScan) {
