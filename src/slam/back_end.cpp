@@ -17,9 +17,10 @@ constexpr double kBend_m = 0.004;
 constexpr double kBend_rad = 0.0015;
 constexpr double kDrift = 0.006;        ///< of the way from one origin to the next
 constexpr double kDrift_radpm = 0.002;  ///< for each metre of it
-/// A map begun without a match to the one before is somewhere near.
-constexpr double kLost_m = 0.6;
-constexpr double kLost_rad = 0.3;
+/// A robot that was lost and carried about: where the IMU turned with it, that says how it is turned.
+constexpr double kLostWithImu_rad = 0.1;
+/// While the robot is lost nothing is forgotten that it might be found by, up to so many maps.
+constexpr std::uint32_t kMostLost = 100;
 
 // The IMU's heading from one map to the next.
 constexpr double kTurn_rad = 0.01;
@@ -67,8 +68,12 @@ std::vector<DrawnChunk> BackEnd::draw() {
   return global_map_.publish();
 }
 
-bool BackEnd::knows_since(std::optional<std::uint32_t> local_map_id) const {
-  return local_map_id && loops_.reaches_over(*local_map_id);
+bool BackEnd::knows_since(std::uint32_t local_map_id) const {
+  const auto after = maps_.lower_bound(local_map_id);
+  if (after == maps_.end()) return false;
+  if (after == maps_.begin()) return true;  // there is nothing before that could be known again
+  const auto tie = graph_.relative_covariance(std::prev(after)->first, maps_.rbegin()->first);
+  return tie && !is_anyones_guess(*tie);
 }
 
 /// Puts a map where the newest finished one says the drawn frame lies, and ties it to the one before.
@@ -86,7 +91,8 @@ void BackEnd::add_node(const LocalMap& map) {
       map.is_tied
           ? Eigen::Matrix3d(kMatchInflation * turned(map.origin_covariance, -last->drawn_T_origin.yaw) +
                             spread(kBend_m + kDrift * between_m, kBend_rad + kDrift_radpm * between_m))
-          : spread(kLost_m, kLost_rad);
+          : spread(kLost_m, map.imu_heading_rad && last_heading_rad_ ? kLostWithImu_rad : kLost_rad);
+  if (!map.is_tied && !lost_since_) lost_since_ = map.id;
   graph_.add_odometry_edge(before, map.id, before_T_this, covariance);
   add_turn(before, map);
 }
@@ -112,6 +118,8 @@ void BackEnd::settle() {
 void BackEnd::retire_unneeded(std::uint32_t newest) {
   constexpr std::uint32_t kKept = 4;
   if (newest < kKept) return;
+  if (lost_since_ && knows_since(*lost_since_)) lost_since_.reset();
+  if (lost_since_ && newest - *lost_since_ < kMostLost) return;
   for (const std::uint32_t id : global_map_.retire(newest - kKept)) {
     const Pose2 origin = graph_.pose(id);
     const auto after = maps_.upper_bound(id);

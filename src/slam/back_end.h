@@ -35,8 +35,9 @@ class BackEnd {
   /// Draws all that changed; returns the chunks that look different from when this was called last.
   std::vector<DrawnChunk> draw();
 
-  /// Whether a place from before a local map was known again in it or later: false when nothing is asked for.
-  bool knows_since(std::optional<std::uint32_t> local_map_id) const;
+  /// Whether it is known where the newest local map lies among those from before a given one, after which
+  /// the robot was lost.
+  bool knows_since(std::uint32_t local_map_id) const;
 
   /// What is to be put before poses of the front end that were matched against a local map: map_T_drawn. For
   /// one that is not finished yet, that of the newest that is; for one that was retired, by the map that took
@@ -73,7 +74,8 @@ class BackEnd {
   std::map<std::uint32_t, std::shared_ptr<const FinishedMap>> maps_;
   std::map<std::uint32_t, Anchor> retired_;
   std::optional<std::uint32_t> preview_;
-  std::optional<double> last_heading_rad_;  ///< the IMU's, when the newest map was begun
+  std::optional<std::uint32_t> lost_since_;  ///< the first local map of a robot that was lost and not found
+  std::optional<double> last_heading_rad_;   ///< the IMU's, when the newest map was begun
   Counters counters_;
 };
 

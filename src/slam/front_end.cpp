@@ -8,6 +8,8 @@
 
 #include "base/error.h"
 #include "slam/match_points.h"
+#include "slam/relative_pose.h"
+#include "slam/wall_crossing.h"
 
 namespace dynslam {
 namespace {
@@ -34,6 +36,16 @@ constexpr double kPoorScore = 0.65;  ///< of the usual
 constexpr double kAllKnown = 0.85;
 constexpr double kLeastScore = 0.42;
 constexpr double kClearlyBetter = 0.2;
+/// A place is another when so much of the scan would have been seen through walls and less than this of what
+/// the map can speak of agrees with it. (In recordings 0.65 and more agrees; where there is less, no walls
+/// are in between.)
+constexpr double kThroughWalls = 0.1;
+constexpr double kLeastAgreeing = 0.5;
+/// When so much less of the scan lies in space that the map knows than in the scans before, it is looked
+/// into.
+constexpr double kSuddenlyUnknown = 0.15;
+/// So many scans after a leap have to bear it out.
+constexpr int kProofOfLeap = 5;
 /// How fast the usual hit and score follow the scans.
 constexpr double kUsualShare = 0.2;
 
@@ -118,7 +130,7 @@ FrontEndResult FrontEnd::process(const Scan& scan) {
   FrontEndResult result;
   result.stamp = scan.stamp;
   result.drawn_T_robot = pose_at_stamp(scan, corrected, fix.map_T_robot);
-  result.covariance = fix.match.covariance;
+  result.covariance = covariance_ = fix.match.covariance;
   result.score = fix.match.score;
   result.matched = fix.matched;
   result.quality = quality(fix);
@@ -127,7 +139,7 @@ FrontEndResult FrontEnd::process(const Scan& scan) {
   note_match(fix);
   compare_sensors(fix, corrected.reference);
   result.inserted = may_insert(scan, fix);
-  motion_.fix(corrected.reference, fix.map_T_robot);
+  motion_.fix(corrected.reference, fix.map_T_robot, fix.matched);
   // Before it may become complete and make room for the next.
   result.local_map_id = local_maps_.empty() ? next_id_ : local_maps_.front().id;
   if (result.inserted) {
@@ -135,6 +147,7 @@ FrontEndResult FrontEnd::process(const Scan& scan) {
     insert(std::move(corrected), fix.map_T_robot);
   }
   result.lost = lost_since_.has_value();
+  if (result.lost) result.covariance += spread(kLost_m, kLost_rad);
   return result;
 }
 
@@ -171,24 +184,27 @@ void FrontEnd::lose() {
   counters_.add("slam.times_lost");
   complete_all();
   if (!lost_since_) lost_since_ = next_id_;
-  unmatched_in_a_row_ = 0;
-  usual_hit_ = usual_score_ = 0.0;
+  lost_last_ = next_id_;
+  unmatched_in_a_row_ = unproven_ = 0;
+  usual_hit_ = usual_score_ = usual_known_ = 0.0;
 }
 
-void FrontEnd::found() {
+void FrontEnd::found(std::uint32_t local_map_id) {
+  if (!lost_since_ || local_map_id < lost_last_) return;
   counters_.add("slam.times_found");
   lost_since_.reset();
 }
 
 /// The share of the scan that the map explains, as well as it usually does; less where it hardly knows the
-/// place, and little while the robot is lost.
+/// place, and little while the robot is lost or a leap is not borne out.
 double FrontEnd::quality(const Fix& fix) const {
   constexpr double kWellKnown = 0.3, kWhileLost = 0.3;
+  const double most = lost_since_ || unproven_ > 0 ? kWhileLost : 1.0;
   if (!fix.matched) return 0.0;
   const MatchResult& m = fix.match;
-  if (usual_score_ <= 0) return lost_since_ ? kWhileLost : 1.0;  // the first of a map
+  if (usual_score_ <= 0) return most;  // the first of a map
   const double as_usual = std::min(1.0, m.score / usual_score_), known = std::min(1.0, m.known / kWellKnown);
-  return m.matched * as_usual * known * (lost_since_ ? kWhileLost : 1.0);
+  return m.matched * as_usual * known * most;
 }
 
 /// Only what is known to be in its place is drawn, and no scan that was smeared by a fast turn.
@@ -202,7 +218,7 @@ bool FrontEnd::may_insert(const Scan& scan, const Fix& fix) {
     counters_.add("slam.scans_skipped_tilting");
     return false;
   }
-  return (fix.matched || local_maps_.empty()) && !points_.empty();
+  return ((fix.matched && unproven_ == 0) || local_maps_.empty()) && !points_.empty();
 }
 
 CorrectedScan FrontEnd::correct(const Scan& scan) {
@@ -223,15 +239,17 @@ FrontEnd::Fix FrontEnd::first_fix(Time t) {
   return fix;
 }
 
-/// Where the scan was taken, by the map; where the map does not answer, the motion sensors' word stands.
+/// Where the scan was taken, by the map; where the map does not answer, see go_on_blindly.
 FrontEnd::Fix FrontEnd::locate(const CorrectedScan& scan) {
   const MatchPrior prior = motion_.expect(scan.reference);
   Fix fix;
   fix.match = match(prior);
   if (motion_.wheels_leap(scan.reference)) look_along_wheels(scan.reference, fix);
   if (is_doubtful(fix.match)) look_about(scan.reference, fix);
-  fix.matched = is_believable(fix.match) && !is_elsewhere(fix.match);
-  fix.map_T_robot = fix.matched ? fix.match.map_T_robot : prior.map_T_robot;
+  fix.matched = is_believable(fix.match) && !is_elsewhere(fix.match, scan);
+  mistrust_leap(scan, fix);
+  fix.map_T_robot = fix.match.map_T_robot;
+  if (!fix.matched) go_on_blindly(prior, fix);
   if (!is_within(fix.map_T_robot, kFarthest_m)) {
     counters_.add("slam.nonsense_poses");
     fix.map_T_robot = motion_.last_pose();
@@ -246,15 +264,31 @@ bool FrontEnd::is_doubtful(const MatchResult& match) const {
   return match.matched < kPoorlyMatched || match.score < kPoorScore * usual_score_;
 }
 
-/// The map knows all of the place and explains the scan badly.
-bool FrontEnd::is_elsewhere(const MatchResult& match) const {
-  return match.known > kAllKnown && match.score < kLeastScore * usual_score_;
+/// The map knows all of the place and explains the scan badly; or the scan looks through its walls.
+bool FrontEnd::is_elsewhere(const MatchResult& match, const CorrectedScan& scan) const {
+  if (match.known > kAllKnown && match.score < kLeastScore * usual_score_) return true;
+  if (!is_doubtful(match) && match.known > usual_known_ - kSuddenlyUnknown) return false;
+  const double through = through_walls(match, scan);
+  const double agreeing = match.known * match.matched / std::min(1.0, match.known + through);
+  return through > kThroughWalls && agreeing < kLeastAgreeing;
+}
+
+double FrontEnd::through_walls(const MatchResult& match, const CorrectedScan& scan) const {
+  return share_through_walls(local_maps_.front().grid, points_, match.map_T_robot,
+                             scan.robot_T_lidar.translation());
+}
+
+/// The motion sensors' word stands, and what it is worth adds up.
+void FrontEnd::go_on_blindly(const MatchPrior& prior, Fix& fix) const {
+  fix.map_T_robot = prior.map_T_robot;
+  fix.match.covariance = covariance_ + spread(prior.sigma_xy_m, prior.sigma_yaw_rad);
 }
 
 void FrontEnd::note_usual(const MatchResult& match) {
   const double share = usual_hit_ == 0 ? 1.0 : kUsualShare;
   usual_hit_ += share * (match.mean_hit - usual_hit_);
   usual_score_ += share * (match.score - usual_score_);
+  usual_known_ += share * (match.known - usual_known_);
 }
 
 MatchResult FrontEnd::match(MatchPrior prior) {
@@ -278,6 +312,17 @@ void FrontEnd::look_about(Time t, Fix& fix) {
   if (!is_believable(other) || fit_of(other) <= fit_of(fix.match) + kClearlyBetter) return;
   counters_.add("slam.priors_set_aside");
   fix.match = other;
+}
+
+/// A robot that was carried away may be found in a place that happens to look like its own. That scan and
+/// those after it have to fit well, and none is drawn until then: it would make the place look like what it
+/// is not.
+void FrontEnd::mistrust_leap(const CorrectedScan& scan, Fix& fix) {
+  const bool leaps = fix.matched && motion_.is_leap(scan.reference, fix.match.map_T_robot);
+  unproven_ = leaps ? kProofOfLeap : std::max(0, unproven_ - 1);
+  if (leaps) counters_.add("slam.leaps");
+  if (unproven_ == 0 || !fix.matched) return;
+  fix.matched = !is_doubtful(fix.match) && through_walls(fix.match, scan) < kThroughWalls;
 }
 
 void FrontEnd::begin_local_map(const Fix& fix, Time t) {

@@ -68,8 +68,9 @@ class FrontEnd {
 
   /// The first local map begun after the robot was lost; nothing while it knows where it is.
   std::optional<std::uint32_t> lost_since() const { return lost_since_; }
-  /// The robot was found: a place from before was known again.
-  void found();
+  /// The robot was found: a local map knew a place from before again. Says nothing of a robot that was lost
+  /// anew since that map.
+  void found(std::uint32_t local_map_id);
   std::size_t local_maps_begun() const { return next_id_; }
   std::size_t waiting() const { return waiting_.size(); }
   /// What is wrong with the sensors' mounting, in words for the user.
@@ -98,13 +99,16 @@ class FrontEnd {
   FrontEndResult process(const Scan& scan);
   CorrectedScan correct(const Scan& scan);
   Fix first_fix(Time t);
+  void go_on_blindly(const MatchPrior& prior, Fix& fix) const;
   Fix locate(const CorrectedScan& scan);
   MatchResult match(MatchPrior prior);
   bool is_doubtful(const MatchResult& match) const;
-  bool is_elsewhere(const MatchResult& match) const;
+  bool is_elsewhere(const MatchResult& match, const CorrectedScan& scan) const;
   void note_usual(const MatchResult& match);
   void look_along_wheels(Time t, Fix& fix);
   void look_about(Time t, Fix& fix);
+  void mistrust_leap(const CorrectedScan& scan, Fix& fix);
+  double through_walls(const MatchResult& match, const CorrectedScan& scan) const;
   void compare_sensors(const Fix& fix, Time t);
   void note_match(const Fix& fix);
   bool may_insert(const Scan& scan, const Fix& fix);
@@ -133,11 +137,15 @@ class FrontEnd {
   std::deque<LocalMap> complete_;    ///< not yet taken
   std::uint32_t next_id_ = 0;
   Pose2 last_counted_;
-  double usual_score_ = 0.0;  ///< of the scans before, on the same map
-  double usual_hit_ = 0.0;    ///< see MatchPrior
+  double usual_score_ = 0.0;                              ///< of the scans before, on the same map
+  double usual_hit_ = 0.0;                                ///< see MatchPrior
+  double usual_known_ = 0.0;                              ///< see MatchResult
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();  ///< of the last fix
   std::optional<std::uint32_t> lost_since_;
+  std::uint32_t lost_last_ = 0;  ///< as lost_since_, of the last time
   Drawn last_drawn_;
   int unmatched_in_a_row_ = 0;
+  int unproven_ = 0;  ///< scans that have to bear a leap out before it is believed
   Pose2 last_matched_;
   std::optional<Time> last_stamp_;
   Counters counters_;

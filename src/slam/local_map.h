@@ -18,6 +18,10 @@ namespace dynslam {
 /// against the global map's rule.
 inline constexpr CellRule kLocalMapRule{.gain = 10, .loss = 3};
 
+/// What is known of where a robot is that was lost: next to nothing.
+inline constexpr double kLost_m = 20.0;
+inline constexpr double kLost_rad = 1.5;
+
 /// A piece of the building as seen over a few dozen scans, short enough to have no drift worth speaking of.
 /// Its cells are drawn in the frame that poses were given in when it was begun; `map_T_origin` is the robot's
 /// pose then and there.

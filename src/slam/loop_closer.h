@@ -22,6 +22,10 @@ struct RefusedLoop {
   std::string reason;
 };
 
+/// Whether a relative pose is so little known that no measurement could contradict it: between maps from
+/// before and after the robot was lost.
+bool is_anyones_guess(const Eigen::Matrix3d& covariance);
+
 /// Looks for places seen before and decides which loops become constraints: those that the match itself
 /// supports (see refusal()) and that agree with what the graph allows; or, where they do not, that agree with
 /// each other: odometry may have slipped, but several loops from several places do not ask for the same
@@ -39,8 +43,6 @@ class LoopCloser {
   void forget(std::uint32_t id);
 
   std::uint64_t closures() const { return closures_; }
-  /// Whether a constraint ties a map before `id` to `id` or a later one.
-  bool reaches_over(std::uint32_t id) const;
   const Counters& counters() const { return counters_; }
   /// The last few hundred, oldest first.
   const std::deque<RefusedLoop>& refused() const { return refused_; }

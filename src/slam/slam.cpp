@@ -41,7 +41,7 @@ std::optional<ScanResult> Slam::next(bool at_end) {
 void Slam::close_loops() {
   while (const auto complete = front_end_.take_complete()) {
     if (!config_.close_loops) {  // nobody needs them, and nobody will know better where the robot is
-      if (front_end_.lost_since()) front_end_.found();
+      front_end_.found(complete->id);
       continue;
     }
     enter("close loops");
@@ -50,6 +50,7 @@ void Slam::close_loops() {
   while (!corrections_.empty() && corrections_.front().due <= visits_.size()) {
     Correction& now = corrections_.front();
     map_T_drawn_ = now.map_T_drawn;
+    if (now.found_in) front_end_.found(*now.found_in);
     if (following_) map_.redrawn(now.chunks);
     corrections_.pop_front();
   }
@@ -58,10 +59,12 @@ void Slam::close_loops() {
 void Slam::take_in(const LocalMap& complete) {
   if (!front_end_.trusts_imu()) back_end_.distrust_imu();
   back_end_.finish(complete);
-  if (back_end_.knows_since(front_end_.lost_since())) front_end_.found();
+  const auto lost = front_end_.lost_since();
   Correction correction{visits_.size() + static_cast<std::size_t>(config_.correction_delay_scans),
                         back_end_.map_T_drawn(complete.id),
+                        {},
                         {}};
+  if (lost && back_end_.knows_since(*lost)) correction.found_in = complete.id;
   if (following_) {
     if (!front_end_.local_maps().empty()) back_end_.preview(front_end_.local_maps().front());
     correction.chunks = back_end_.draw();

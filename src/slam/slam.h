@@ -78,7 +78,8 @@ class Slam {
   struct Correction {
     std::size_t due = 0;  ///< at this many scans
     Pose2 map_T_drawn;
-    std::vector<DrawnChunk> chunks;  ///< of the map that look different now
+    std::optional<std::uint32_t> found_in;  ///< the local map in which a robot that was lost was found
+    std::vector<DrawnChunk> chunks;         ///< of the map that look different now
   };
   void close_loops();
   void take_in(const LocalMap& complete);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/drawn_finished_map.h"
+#include "slam/local_map.h"
 #include "support_matchers.h"
 
 namespace dynslam {
@@ -41,21 +42,11 @@ class Tour {
 
   /// The next map is made around `world_T_origin`; on the way there, odometry slipped by `slip`.
   bool go_to(const Pose2& world_T_origin, const Pose2& slip = {}) {
-    const auto id = static_cast<std::uint32_t>(truth.size());
-    if (id == 0) {
-      graph.add_node(0, world_T_origin);
-    } else {
-      const Pose2 step = truth.back().inverse() * world_T_origin * slip;
-      graph.add_node(id, graph.pose(id - 1) * step);
-      graph.add_odometry_edge(id - 1, id, step, odometry_);
-    }
-    truth.push_back(world_T_origin);
-    std::vector<Pose2> way;
-    for (const double along : {0.0, 0.3, -0.3}) way.push_back(world_T_origin * Pose2{along, 0.2 * along, 0});
-    auto map = std::make_shared<FinishedMap>(finished_map(
-        world_, {.world_T_robot = way, .drawn_T_world = {0.3 * id, -0.2 * id, 0.7 * id}, .seed = id + 1}));
-    map->id = id;
-    return closer.close(map);
+    return go_to(world_T_origin, slip, odometry_);
+  }
+  /// The same for a robot that was carried about on the way and knows it.
+  bool go_to_lost(const Pose2& world_T_origin, const Pose2& slip) {
+    return go_to(world_T_origin, slip, spread(kLost_m, kLost_rad));
   }
 
   double worst_m() const {
@@ -70,6 +61,24 @@ class Tour {
   LoopCloser closer{graph};
 
  private:
+  bool go_to(const Pose2& world_T_origin, const Pose2& slip, const Eigen::Matrix3d& covariance) {
+    const auto id = static_cast<std::uint32_t>(truth.size());
+    if (id == 0) {
+      graph.add_node(0, world_T_origin);
+    } else {
+      const Pose2 step = truth.back().inverse() * world_T_origin * slip;
+      graph.add_node(id, graph.pose(id - 1) * step);
+      graph.add_odometry_edge(id - 1, id, step, covariance);
+    }
+    truth.push_back(world_T_origin);
+    std::vector<Pose2> way;
+    for (const double along : {0.0, 0.3, -0.3}) way.push_back(world_T_origin * Pose2{along, 0.2 * along, 0});
+    auto map = std::make_shared<FinishedMap>(finished_map(
+        world_, {.world_T_robot = way, .drawn_T_world = {0.3 * id, -0.2 * id, 0.7 * id}, .seed = id + 1}));
+    map->id = id;
+    return closer.close(map);
+  }
+
   DrawnWorld world_;
   Eigen::Matrix3d odometry_;
 };
@@ -149,6 +158,24 @@ TEST(LoopCloser, NeverBelievesClaimsThatDisagree) {
   EXPECT_EQ(tour.closer.counters()["loops.claims_believed"], 0U);
   for (const GraphEdge& e : tour.graph.edges())
     EXPECT_TRUE(e.kind != EdgeKind::kLoop || e.b < 4 || e.a >= 4) << e.a << " " << e.b;
+}
+
+TEST(LoopCloser, FindsARobotThatWasLostHoweverItIsTurnedOnceThreeLoopsAgree) {
+  for (const Pose2& carried : {Pose2{1.0, -2.0, 2.5}, Pose2{-1.5, 1.5, -1.6}}) {
+    Tour tour(ring(), 0.03, 0.01);
+    for (const double x : {0.8, 2.0, 3.2, 4.4}) tour.go_to({x, 0.8, 0});
+    const std::uint64_t before = tour.closer.closures();
+    EXPECT_FALSE(tour.go_to_lost({0.9, 0.9, 0}, carried));
+    EXPECT_GT(tour.worst_m(), 1.5);
+    EXPECT_EQ(tour.closer.closures(), before) << "one place alone is not believed";
+    EXPECT_TRUE(is_anyones_guess(*tour.graph.relative_covariance(3, 4)));
+    for (const double x : {1.5, 2.1, 2.7})
+      if (tour.closer.counters()["loops.claims_believed"] == 0) tour.go_to({x, 0.8, 0});
+    EXPECT_GE(tour.closer.counters()["loops.claims_believed"], 3U);
+    EXPECT_TRUE(tour.graph.solve().let_go.empty());
+    EXPECT_LT(tour.worst_m(), 0.05);
+    EXPECT_FALSE(is_anyones_guess(*tour.graph.relative_covariance(3, 4)));
+  }
 }
 
 /// A room with a shelf and two boxes in it, 4 x 3 m.
