@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <limits>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "io/picture_band.h"
 #include "io/picture_layout.h"
@@ -26,49 +29,75 @@ constexpr Rgb kPathColours[] = {{46, 91, 219}, {140, 70, 214}, {226, 62, 140}, {
 
 constexpr int kBandRows = 32;
 
-CellState state_at(const TrinaryMap& map, int column, int row) {
-  const bool is_inside = column >= 0 && column < map.width && row >= 0 && row < map.height;
-  return is_inside ? map.at(column, row) : CellState::kUnknown;
-}
-
-/// What the cells of a pixel look like: `count` columns and rows from (left, top) to the right and down.
-Rgb ground_colour(const TrinaryMap& map, int left, int top, int count) {
-  int free = 0;
-  for (int row = top; row > top - count; --row) {
-    for (int column = left; column < left + count; ++column)
-      free += state_at(map, column, row) == CellState::kFree;
+/// Draws rows of pixels from the rows of cells that lie under them.
+class MapRows {
+ public:
+  MapRows(const TrinaryMap& map, const PictureLayout& layout)
+      : map_(map),
+        l_(layout),
+        // A line of single pixels is lost once the picture is shown smaller: where cells are that small, a
+        // wall takes the pixel before it too.
+        wall_reach_(layout.enlarge == 1 ? 2 * layout.shrink : 1),
+        ground_(static_cast<std::size_t>(layout.shrink * layout.shrink) + 1),
+        free_(static_cast<std::size_t>(layout.columns + wall_reach_)),
+        walls_(free_.size()) {
+    const auto all = static_cast<float>(ground_.size() - 1);
+    for (std::size_t n = 0; n < ground_.size(); ++n)
+      ground_[n] = mix(kUnknown, kFloor, static_cast<float>(n) / all);
   }
-  return mix(kUnknown, kFloor, static_cast<float>(free) / static_cast<float>(count * count));
-}
 
-bool has_wall(const TrinaryMap& map, int left, int top, int count) {
-  for (int row = top; row > top - count; --row) {
-    for (int column = left; column < left + count; ++column) {
-      if (state_at(map, column, row) == CellState::kOccupied) return true;
+  /// `row` counts from the top of the map.
+  void draw(int row, std::span<Rgb> pixels) {
+    const int top = l_.bottom + l_.rows - 1 - row * l_.shrink / l_.enlarge;
+    if (top != top_) count(top);
+    for (int x = 0; x < l_.map_width; ++x) {
+      const int column = x * l_.shrink / l_.enlarge;
+      pixels[static_cast<std::size_t>(l_.offset_x + x)] =
+          sum(walls_, column, wall_reach_) > 0 ? kWall : ground_[sum(free_, column, l_.shrink)];
     }
   }
-  return false;
-}
 
-/// One row of pixels; `row` counts from the top of the map.
-void draw_map_row(const TrinaryMap& map, const PictureLayout& l, int row, std::span<Rgb> pixels) {
-  const int top = l.bottom + l.rows - 1 - row * l.shrink / l.enlarge;
-  // A line of single pixels is lost once the picture is shown smaller: where cells are that small, a wall
-  // takes the pixel before it too.
-  const int wall_reach = l.enlarge == 1 ? 2 * l.shrink : 1;
-  for (int x = 0; x < l.map_width; ++x) {
-    const int left = l.left + x * l.shrink / l.enlarge;
-    pixels[static_cast<std::size_t>(l.offset_x + x)] =
-        has_wall(map, left, top, wall_reach) ? kWall : ground_colour(map, left, top, l.shrink);
+ private:
+  /// How many cells of each column, from row `top` down, are free and how many are walls.
+  void count(int top) {
+    top_ = top;
+    std::fill(free_.begin(), free_.end(), 0U);
+    std::fill(walls_.begin(), walls_.end(), 0U);
+    const int left = std::max(0, l_.left),
+              right = std::min(map_.width, l_.left + static_cast<int>(free_.size()));
+    for (int below = 0; below < wall_reach_; ++below) {
+      const int row = top - below;
+      if (row < 0 || row >= map_.height) continue;
+      const std::uint32_t as_ground = below < l_.shrink ? 1 : 0;
+      for (int column = left; column < right; ++column) {
+        const CellState state = map_.at(column, row);
+        const auto i = static_cast<std::size_t>(column - l_.left);
+        free_[i] += state == CellState::kFree ? as_ground : 0;
+        walls_[i] += state == CellState::kOccupied ? 1U : 0U;
+      }
+    }
   }
-}
 
-void draw_map(const TrinaryMap& map, const PictureLayout& l, PictureBand& band) {
+  static std::size_t sum(const std::vector<std::uint32_t>& counts, int first, int n) {
+    std::size_t total = 0;
+    for (int i = first; i < first + n; ++i) total += counts[static_cast<std::size_t>(i)];
+    return total;
+  }
+
+  const TrinaryMap& map_;
+  const PictureLayout& l_;
+  int wall_reach_;
+  std::vector<Rgb> ground_;  ///< by how many cells under a pixel are free
+  int top_ = std::numeric_limits<int>::min();
+  std::vector<std::uint32_t> free_, walls_;  ///< of the columns from the layout's left on
+};
+
+void draw_map(MapRows& map, const PictureLayout& l, PictureBand& band) {
   for (int y = band.first_row(); y < band.first_row() + band.rows(); ++y) {
     const std::span<Rgb> pixels = band.row(y);
     std::fill(pixels.begin(), pixels.end(), kUnknown);
     const int row = y - l.margin;
-    if (row >= 0 && row < l.map_height) draw_map_row(map, l, row, pixels);
+    if (row >= 0 && row < l.map_height) map.draw(row, pixels);
   }
 }
 
@@ -159,9 +188,10 @@ std::string to_png(const TrinaryMap& map, const MapPictureLayers& layers) {
 
   PngWriter png(layout.width, layout.height);
   PictureBand band(layout.width, kBandRows);
+  MapRows rows(map, layout);
   for (int y = 0; y < layout.height; y += kBandRows) {
     band.move_to(y, std::min(kBandRows, layout.height - y));
-    draw_map(map, layout, band);
+    draw_map(rows, layout, band);
     for (const Stroke& stroke : strokes) band.draw(stroke);
     for (int row = y; row < y + band.rows(); ++row) png.write_row(band.row(row));
   }

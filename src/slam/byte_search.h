@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -12,32 +13,44 @@ namespace dynslam {
 
 using Scores16 = std::array<std::uint32_t, 16>;
 
-/// For each of 16 neighbouring x shifts: the sum over all points of the byte at `row[offset + shift]`. One
-/// 16-byte load a point; sums are kept in 16 bits and emptied before they can run over.
-inline Scores16 score_16_shifts(const std::uint8_t* row, std::span<const std::int32_t> offsets) {
-  static_assert(std::endian::native == std::endian::little, "bytes are widened by interleaving with zeros");
-  using Bytes = std::uint8_t __attribute__((vector_size(16)));
+/// For each of 16 neighbouring x shifts and `kRows` neighbouring y shifts: the sum over all points of the
+/// byte at `row[offset + y stride + x]`. One 16-byte load a point and row; where a point lies is looked up
+/// once for all rows.
+template <std::size_t kRows>
+std::array<Scores16, kRows> score_rows(const std::uint8_t* row, std::ptrdiff_t stride,
+                                       std::span<const std::int32_t> offsets) {
+  static_assert(std::endian::native == std::endian::little, "even bytes are the low halves of words");
   using Words = std::uint16_t __attribute__((vector_size(16)));
   constexpr std::size_t kBeforeOverflow = 257;  // 257 * 255 = 65535
-  const Bytes zero{};
-  Scores16 total{};
+  std::array<Scores16, kRows> total{};
   for (std::size_t done = 0; done < offsets.size(); done += kBeforeOverflow) {
     const std::size_t end = std::min(offsets.size(), done + kBeforeOverflow);
-    Words low{}, high{};
+    // Sums in 16 bits: of the odd bytes, and of whole words, which run over. What is left of them without the
+    // odd bytes' share is the sum of the even ones, which does not.
+    Words odd[kRows]{}, whole[kRows]{};
     for (std::size_t i = done; i < end; ++i) {
-      Bytes b;
-      std::memcpy(&b, row + offsets[i], sizeof b);
-      low += reinterpret_cast<Words>(
-          __builtin_shufflevector(b, zero, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23));
-      high += reinterpret_cast<Words>(
-          __builtin_shufflevector(b, zero, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31));
+      const std::uint8_t* at = row + offsets[i];
+      for (std::size_t r = 0; r < kRows; ++r, at += stride) {
+        Words w;
+        std::memcpy(&w, at, sizeof w);
+        whole[r] += w;
+        odd[r] += w >> 8;
+      }
     }
-    for (std::size_t k = 0; k < 8; ++k) {
-      total[k] += low[k];
-      total[k + 8] += high[k];
+    for (std::size_t r = 0; r < kRows; ++r) {
+      const Words even = whole[r] - (odd[r] << 8);
+      for (std::size_t k = 0; k < 8; ++k) {
+        total[r][2 * k] += even[k];
+        total[r][2 * k + 1] += odd[r][k];
+      }
     }
   }
   return total;
+}
+
+/// The same for one row.
+inline Scores16 score_16_shifts(const std::uint8_t* row, std::span<const std::int32_t> offsets) {
+  return score_rows<1>(row, 0, offsets)[0];
 }
 
 }  // namespace dynslam

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kCoarse = HitWindow::kPool;  ///< side of a cell of the wide search, in cells
 constexpr int kMostFineHalf = 7;           ///< a row of 2 * 7 + 1 shifts is one load
+constexpr int kRowsAtOnce = 3;             ///< no window is narrower; their sums fit into registers
 // Bounds on the work of a wide search, whatever the prior and the cell size: some ten milliseconds.
 constexpr int kMostCoarseHalf = 24;
 constexpr int kMostCoarseYaws = 60;
@@ -108,52 +109,69 @@ void ScanMatcher::choose_sparse(std::span<const MatchPoint> points) {
   far_cells_ = std::max(10.0F, *far);
 }
 
+/// Where the sparse points lie in a window when moved by the least that the search moves them; those that a
+/// shift could take out of the window are left out.
+void ScanMatcher::place_sparse(const HitWindow& window, const Pose2& window_T_robot, int half_cells,
+                               double cell_factor) {
+  const auto per_cell = static_cast<float>(1 / cell_factor);
+  const auto c = static_cast<float>(std::cos(window_T_robot.yaw)) * per_cell,
+             s = static_cast<float>(std::sin(window_T_robot.yaw)) * per_cell;
+  const auto x0 = static_cast<float>(window_T_robot.x), y0 = static_cast<float>(window_T_robot.y);
+  offsets_.resize(sparse_.size());
+  std::size_t inside = 0;
+  for (const MatchPoint& p : sparse_) {
+    // The window has no negative cells.
+    const int x = static_cast<int>(x0 + c * p.x - s * p.y) - half_cells;
+    const int y = static_cast<int>(y0 + s * p.x + c * p.y) - half_cells;
+    if (!window.contains(x, y) || !window.contains(x + 2 * half_cells, y + 2 * half_cells)) continue;
+    offsets_[inside++] = y * window.stride() + x;
+  }
+  offsets_.resize(inside);
+}
+
+/// The best shift of the placed points by up to `half_cells` either way, against the prior. `cell_factor`:
+/// cells of the map to one of this window.
+ScanMatcher::Candidate ScanMatcher::best_shift(const HitWindow& window, const Pose2& centre, int half_cells,
+                                               double cell_factor) const {
+  const Pose2& prior = expected_.window_T_robot;
+  const double worth = kEvidence * weight_of_sparse_ / 255.0;
+  const double xy_cost = 0.5 * expected_.xy_information * cell_factor * cell_factor;
+  const double yaw_off = turn(prior.yaw, centre.yaw);
+  const double yaw_cost = 0.5 * expected_.yaw_information * yaw_off * yaw_off;
+  const int width = 2 * half_cells + 1, last_rows = width - static_cast<int>(kRowsAtOnce);
+  Candidate best{centre, -1e300};
+  for (int first = 0; first < width; first += kRowsAtOnce) {
+    const int low = std::min(first, last_rows);  // the last ones may be looked at twice
+    for (int left = 0; left < width; left += HitWindow::kLanes) {
+      const auto rows =
+          score_rows<kRowsAtOnce>(window.data() + static_cast<std::ptrdiff_t>(low) * window.stride() + left,
+                                  window.stride(), offsets_);
+      const int lanes = std::min(HitWindow::kLanes, width - left);
+      for (std::size_t r = 0; r < kRowsAtOnce; ++r) {
+        const double y = centre.y + low + static_cast<int>(r) - half_cells;
+        const double off_y = y - prior.y / cell_factor;
+        for (int i = 0; i < lanes; ++i) {
+          const double x = centre.x + left + i - half_cells, off_x = x - prior.x / cell_factor;
+          const double score = worth * rows[r][static_cast<std::size_t>(i)] -
+                               xy_cost * (off_x * off_x + off_y * off_y) - yaw_cost;
+          if (score > best.score) best = {{x, y, centre.yaw}, score};
+        }
+      }
+    }
+  }
+  return best;
+}
+
 /// Scores every shift of the sparse points by whole cells and every yaw of the range, against the prior.
-/// Returns the best candidates, best first, at most one a yaw. `cell_factor`: cells of the map to one of this
-/// window.
+/// Returns the best candidates, best first, at most one a yaw.
 std::vector<ScanMatcher::Candidate> ScanMatcher::search(const HitWindow& window, const Pose2& centre,
                                                         const SearchRange& range, double cell_factor,
                                                         std::size_t candidates) {
   std::vector<Candidate> found;
-  offsets_.resize(sparse_.size());
-  const int width = 2 * range.half_cells + 1;
-  const auto per_cell = static_cast<float>(1 / cell_factor);
-  const double worth = kEvidence * weight_of_sparse_ / 255.0;
-  const double xy_cost = 0.5 * expected_.xy_information * cell_factor * cell_factor;
   for (int k = -range.half_yaws; k <= range.half_yaws; ++k) {
-    const double yaw = centre.yaw + k * range.yaw_step_rad;
-    const double yaw_off = turn(expected_.window_T_robot.yaw, yaw);
-    const double yaw_cost = 0.5 * expected_.yaw_information * yaw_off * yaw_off;
-    const auto c = static_cast<float>(std::cos(yaw)) * per_cell,
-               s = static_cast<float>(std::sin(yaw)) * per_cell;
-    const auto x0 = static_cast<float>(centre.x), y0 = static_cast<float>(centre.y);
-    std::size_t inside = 0;
-    for (const MatchPoint& p : sparse_) {
-      const int x =
-          static_cast<int>(x0 + c * p.x - s * p.y) - range.half_cells;  // the window has no negative cells
-      const int y = static_cast<int>(y0 + s * p.x + c * p.y);
-      if (!window.contains(x, y - range.half_cells) || !window.contains(x + width - 1, y + range.half_cells))
-        continue;
-      offsets_[inside++] = y * window.stride() + x;
-    }
-    Candidate best{centre, -1e300};
-    for (int dy = -range.half_cells; dy <= range.half_cells; ++dy) {
-      const double off_y = centre.y + dy - expected_.window_T_robot.y / cell_factor;
-      for (int left = 0; left < width; left += HitWindow::kLanes) {
-        const Scores16 scores =
-            score_16_shifts(window.data() + static_cast<std::ptrdiff_t>(dy) * window.stride() + left,
-                            {offsets_.data(), inside});
-        const int lanes = std::min(HitWindow::kLanes, width - left);
-        for (int i = 0; i < lanes; ++i) {
-          const double dx = left + i - range.half_cells;
-          const double off_x = centre.x + dx - expected_.window_T_robot.x / cell_factor;
-          const double score = worth * scores[static_cast<std::size_t>(i)] -
-                               xy_cost * (off_x * off_x + off_y * off_y) - yaw_cost;
-          if (score > best.score) best = {{centre.x + dx, centre.y + dy, yaw}, score};
-        }
-      }
-    }
-    found.push_back(best);
+    const Pose2 turned{centre.x, centre.y, centre.yaw + k * range.yaw_step_rad};
+    place_sparse(window, turned, range.half_cells, cell_factor);
+    found.push_back(best_shift(window, turned, range.half_cells, cell_factor));
   }
   const auto better = [](const Candidate& a, const Candidate& b) { return a.score > b.score; };
   const auto keep = found.begin() + static_cast<std::ptrdiff_t>(std::min(found.size(), candidates));
@@ -167,7 +185,7 @@ ScanMatcher::Candidate ScanMatcher::search_all(double half_xy_cells, double half
   const Pose2& centre = expected_.window_T_robot;
   const double fine_yaw = 1.0 / far_cells_;
   if (half_xy_cells <= kMostFineHalf && half_yaw_rad / fine_yaw <= 16) {
-    const SearchRange range{static_cast<int>(std::ceil(half_xy_cells)),
+    const SearchRange range{std::max(1, static_cast<int>(std::ceil(half_xy_cells))),
                             static_cast<int>(std::ceil(half_yaw_rad / fine_yaw)), fine_yaw};
     return search(fine_, centre, range, 1, 1).front();
   }

@@ -68,6 +68,9 @@ class ScanMatcher {
     double yaw_step_rad = 0.0;
   };
 
+  void place_sparse(const HitWindow& window, const Pose2& window_T_robot, int half_cells, double cell_factor);
+  Candidate best_shift(const HitWindow& window, const Pose2& centre, int half_cells,
+                       double cell_factor) const;
   std::vector<Candidate> search(const HitWindow& window, const Pose2& centre, const SearchRange& range,
                                 double cell_factor, std::size_t candidates);
   Candidate search_all(double half_xy_cells, double half_yaw_rad);
@@ -80,10 +83,10 @@ class ScanMatcher {
   Expectation expected_;  ///< of the match at hand
   HitWindow fine_;
   HitWindow coarse_;
-  std::vector<MatchPoint> sparse_;  ///< the points that the exhaustive search looks at
-  double weight_of_sparse_ = 1.0;   ///< points that each of them stands for
-  float far_cells_ = 0.0F;          ///< most of the sparse points are nearer
-  std::vector<std::int32_t> offsets_;
+  std::vector<MatchPoint> sparse_;     ///< the points that the exhaustive search looks at
+  double weight_of_sparse_ = 1.0;      ///< points that each of them stands for
+  float far_cells_ = 0.0F;             ///< most of the sparse points are nearer
+  std::vector<std::int32_t> offsets_;  ///< of those in the window at hand, as they are placed
 };
 
 }  // namespace dynslam

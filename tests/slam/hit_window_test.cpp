@@ -89,18 +89,20 @@ TEST(HitWindow, PoolsMaxima) {
 }
 
 TEST(ByteSearch, AgreesWithAddingOneByOne) {
+  constexpr std::size_t kStride = 71;
   std::mt19937 random(4);
   std::vector<std::uint8_t> bytes(5000);
   for (auto& b : bytes) b = random() % 3 == 0 ? 255 : static_cast<std::uint8_t>(random());
   for (const std::size_t n : {0U, 1U, 256U, 257U, 258U, 1500U}) {
     std::vector<std::int32_t> offsets(n);
-    for (auto& o : offsets) o = static_cast<std::int32_t>(random() % (bytes.size() - 16));
-    const Scores16 scores = score_16_shifts(bytes.data(), offsets);
-    for (std::size_t k = 0; k < 16; ++k) {
+    for (auto& o : offsets) o = static_cast<std::int32_t>(random() % (bytes.size() - 16 - 2 * kStride));
+    const auto rows = score_rows<3>(bytes.data(), kStride, offsets);
+    for (std::size_t k = 0; k < 3 * 16; ++k) {
       std::uint32_t sum = 0;
-      for (const auto o : offsets) sum += bytes[static_cast<std::size_t>(o) + k];
-      EXPECT_EQ(scores[k], sum);
+      for (const auto o : offsets) sum += bytes[static_cast<std::size_t>(o) + k / 16 * kStride + k % 16];
+      EXPECT_EQ(rows[k / 16][k % 16], sum);
     }
+    EXPECT_EQ(score_16_shifts(bytes.data(), offsets), rows[0]);
   }
 }
 
