@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <utility>
 
 #include "grid/bitmap_sets.h"
@@ -56,7 +58,7 @@ GlobalMap::GlobalMap(double cell_size_m)
 void GlobalMap::place(std::shared_ptr<const FinishedMap> map, const Pose2& map_T_origin) {
   const std::uint32_t id = map->id;
   Placed& placed = maps_[id] = {std::move(map), map_T_origin, {}};
-  name_all(id, placed);
+  name_in(id, placed, blocks_under(placed));
 }
 
 void GlobalMap::place_for_now(std::shared_ptr<const FinishedMap> map, const Pose2& map_T_origin) {
@@ -78,18 +80,15 @@ void GlobalMap::move(const std::map<std::uint32_t, Pose2>& map_T_origins) {
 /// Names a map in the blocks where those lie now that named it before.
 void GlobalMap::move_to(std::uint32_t id, Placed& placed, const Pose2& map_T_origin) {
   const Pose2 after_T_before = map_T_origin * placed.map_T_origin.inverse();
-  const std::set<CellIndex> before = std::exchange(placed.blocks, {});
   placed.map_T_origin = map_T_origin;
   const double half = 0.5 * block_cells(), reach = half * (std::abs(std::cos(after_T_before.yaw)) +
                                                            std::abs(std::sin(after_T_before.yaw)));
-  for (const CellIndex b : before) {
+  BlockSet after;
+  for (const CellIndex b : placed.blocks) {
     const Vector2 middle = cell_size_m_ * Vector2(b.x * 2 * half + half, b.y * 2 * half + half);
-    name_under_square(after_T_before * middle / cell_size_m_, reach, id, placed);
+    append_under_square(after_T_before * middle / cell_size_m_, reach, after);
   }
-  for (const CellIndex b : before) {
-    if (placed.blocks.contains(b)) continue;
-    unname(b, id);
-  }
+  name_in(id, placed, std::move(after));
 }
 
 void GlobalMap::remove(std::uint32_t id) {
@@ -105,8 +104,8 @@ void GlobalMap::touch(CellIndex index, Block& block) {
   dirty_.push_back(index);
 }
 
-void GlobalMap::name(CellIndex index, std::uint32_t id, Placed& placed) {
-  if (!placed.blocks.insert(index).second) return;
+/// The block's side of naming a map: it is drawn again in any case.
+void GlobalMap::name(CellIndex index, std::uint32_t id) {
   Block& block = blocks_[index];
   const auto at = std::lower_bound(block.ids.begin(), block.ids.end(), id, std::greater<>());
   if (at == block.ids.end() || *at != id) block.ids.insert(at, id);
@@ -120,21 +119,33 @@ void GlobalMap::unname(CellIndex index, std::uint32_t id) {
   touch(index, block);
 }
 
-/// Names a map in all blocks that a square reaches into.
-void GlobalMap::name_under_square(const Vector2& centre_cells, double half_width_cells, std::uint32_t id,
-                                  Placed& placed) {
+/// Names a map in some blocks, in any order, and no longer in any other.
+void GlobalMap::name_in(std::uint32_t id, Placed& placed, BlockSet blocks) {
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  for (const CellIndex b : blocks) name(b, id);
+  BlockSet left;
+  std::set_difference(placed.blocks.begin(), placed.blocks.end(), blocks.begin(), blocks.end(),
+                      std::back_inserter(left));
+  for (const CellIndex b : left) unname(b, id);
+  placed.blocks = std::move(blocks);
+}
+
+/// Appends all blocks that a square reaches into.
+void GlobalMap::append_under_square(const Vector2& centre_cells, double half_width_cells,
+                                    BlockSet& blocks) const {
   constexpr double kHair = 0.01;  // of a block: a square that fits a block is in no other
   const double reach = half_width_cells / block_cells() - kHair;
   const Vector2 centre = centre_cells / block_cells();
   const CellIndex low = cell_at(centre - Vector2(reach, reach), 1.0),
                   high = cell_at(centre + Vector2(reach, reach), 1.0);
   for (std::int32_t y = low.y; y <= high.y; ++y) {
-    for (std::int32_t x = low.x; x <= high.x; ++x) name({x, y}, id, placed);
+    for (std::int32_t x = low.x; x <= high.x; ++x) blocks.push_back({x, y});
   }
 }
 
-/// Names a map wherever it knows anything.
-void GlobalMap::name_all(std::uint32_t id, Placed& placed) {
+/// The blocks in which a map knows anything, some of them more than once.
+GlobalMap::BlockSet GlobalMap::blocks_under(const Placed& placed) const {
   const FinishedMap& map = *placed.map;
   const Pose2 map_T_drawn = placed.map_T_origin * map.drawn_T_origin.inverse();
   const int side = block_cells();
@@ -145,6 +156,7 @@ void GlobalMap::name_all(std::uint32_t id, Placed& placed) {
     all.include(map.occupied.box().min);
     all.include(map.occupied.box().max);
   }
+  BlockSet blocks;
   for (std::int32_t cy = all.min.y; cy <= all.max.y; ++cy) {
     for (std::int32_t cx = all.min.x; cx <= all.max.x; ++cx) {
       const CellTile &free = map.free.tile({cx, cy}), &occupied = map.occupied.tile({cx, cy});
@@ -152,11 +164,12 @@ void GlobalMap::name_all(std::uint32_t id, Placed& placed) {
         for (int x = 0; x < kChunkSide; x += side) {
           if (!any_in(free, x, y, side) && !any_in(occupied, x, y, side)) continue;
           const Vector2 middle(cx * kChunkSide + x + 0.5 * side, cy * kChunkSide + y + 0.5 * side);
-          name_under_square(map_T_drawn * Vector2(middle * cell_size_m_) / cell_size_m_, reach, id, placed);
+          append_under_square(map_T_drawn * Vector2(middle * cell_size_m_) / cell_size_m_, reach, blocks);
         }
       }
     }
   }
+  return blocks;
 }
 
 std::size_t GlobalMap::redraw(std::size_t most_blocks) {
@@ -185,7 +198,7 @@ void GlobalMap::draw(CellIndex index, Block& block) {
     const bool shows = said.free + kSurfaceWorth * said.occupied >= least;
     if (shows) view = with_it;
     if (shows || keep_names) return false;
-    placed.blocks.erase(index);
+    placed.blocks.erase(std::lower_bound(placed.blocks.begin(), placed.blocks.end(), index));
     return true;
   });
   const ChunkIndex chunk = chunk_of(view.first);

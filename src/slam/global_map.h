@@ -7,7 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
+#include <unordered_map>
 #include <vector>
 
 #include "base/pose2.h"
@@ -78,21 +78,28 @@ class GlobalMap {
     std::vector<std::uint32_t> ids;  ///< of the maps that show in it, newest first
     bool dirty = false;
   };
+  struct HashOfBlock {
+    std::size_t operator()(CellIndex b) const {
+      const auto x = static_cast<std::uint32_t>(b.x), y = static_cast<std::uint32_t>(b.y);
+      return (std::uint64_t{y} << 32 | x) * 0x9E3779B97F4A7C15ULL >> 32;
+    }
+  };
+  using BlockSet = std::vector<CellIndex>;  ///< in order, each once
   struct Placed {
     std::shared_ptr<const FinishedMap> map;
     Pose2 map_T_origin;
-    std::set<CellIndex> blocks;  ///< that name it
+    BlockSet blocks;  ///< that name it
   };
   struct Picture {
     DrawnChunk drawn;  ///< as it was drawn
     DrawnChunk shown;  ///< as it was published
   };
-  void name(CellIndex block, std::uint32_t id, Placed& placed);
+  void name(CellIndex block, std::uint32_t id);
   void unname(CellIndex block, std::uint32_t id);
+  void name_in(std::uint32_t id, Placed& placed, BlockSet blocks);
   void touch(CellIndex index, Block& block);
-  void name_under_square(const Vector2& centre_cells, double half_width_cells, std::uint32_t id,
-                         Placed& placed);
-  void name_all(std::uint32_t id, Placed& placed);
+  void append_under_square(const Vector2& centre_cells, double half_width_cells, BlockSet& blocks) const;
+  BlockSet blocks_under(const Placed& placed) const;
   void move_to(std::uint32_t id, Placed& placed, const Pose2& map_T_origin);
   void draw(CellIndex index, Block& block);
   ChunkBox box() const;
@@ -101,7 +108,7 @@ class GlobalMap {
   int block_bits_;
   std::optional<std::uint32_t> passing_;  ///< placed for now
   std::map<std::uint32_t, Placed> maps_;
-  std::map<CellIndex, Block> blocks_;
+  std::unordered_map<CellIndex, Block, HashOfBlock> blocks_;
   std::deque<CellIndex> dirty_;
   std::map<ChunkIndex, Picture> pictures_;
 };
