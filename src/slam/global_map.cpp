@@ -2,12 +2,14 @@
 #include "slam/global_map.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <utility>
 
 #include "grid/bitmap_sets.h"
+#include "grid/cell_bitmap.h"
 #include "slam/clean_up.h"
 #include "slam/witness.h"
 
@@ -38,6 +40,23 @@ bool any_in(const CellTile& tile, int x, int y, int side) {
   std::uint64_t any = 0;
   for (int r = y; r < y + side; ++r) any |= tile[static_cast<std::size_t>(r)] & columns;
   return any != 0;
+}
+
+/// Puts blocks in order and drops those that are there more than once. They lie close together: in a bitmap,
+/// with x and y exchanged as its rows come first in the order, that takes no comparing.
+void sort_each_once(std::vector<CellIndex>& blocks) {
+  ChunkBox box;
+  for (const CellIndex b : blocks) box.include(chunk_of({b.y, b.x}));
+  CellBitmap marks;
+  marks.reset(box);
+  for (const CellIndex b : blocks) marks.set({b.y, b.x});
+  blocks.clear();
+  for (int r = 0; r < marks.rows(); ++r) {
+    for (int w = 0; w < marks.words_per_row(); ++w) {
+      for (std::uint64_t left = marks.row(r)[w]; left != 0; left &= left - 1)
+        blocks.push_back({marks.first().y + r, marks.first().x + w * kChunkSide + std::countr_zero(left)});
+    }
+  }
 }
 
 /// Writes the rows of a block into the chunk around it.
@@ -121,8 +140,7 @@ void GlobalMap::unname(CellIndex index, std::uint32_t id) {
 
 /// Names a map in some blocks, in any order, and no longer in any other.
 void GlobalMap::name_in(std::uint32_t id, Placed& placed, BlockSet blocks) {
-  std::sort(blocks.begin(), blocks.end());
-  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  sort_each_once(blocks);
   for (const CellIndex b : blocks) name(b, id);
   BlockSet left;
   std::set_difference(placed.blocks.begin(), placed.blocks.end(), blocks.begin(), blocks.end(),
