@@ -13,6 +13,7 @@
 
 #include "config.h"
 #include "replay_command.h"
+#include "robot/steady_memory.h"
 
 namespace {
 
@@ -74,6 +75,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  dynslam::keep_memory_steady();
   spdlog::set_default_logger(spdlog::stderr_color_mt("dynslam"));
   spdlog::set_pattern("%n: %^%v%$");
   try {

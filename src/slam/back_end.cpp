@@ -34,7 +34,9 @@ BackEnd::BackEnd(const SlamConfig& config) : loops_(graph_), global_map_(config.
 
 void BackEnd::finish(const LocalMap& map) {
   drop_preview();
-  auto finished = std::make_shared<const FinishedMap>(clean_up(map, map.id, map.ended));
+  const FinishedMap cleaned = clean_up(map, map.id, map.ended);
+  // A copy takes no more than it needs, and does not lie in the midst of what the cleaning took.
+  const auto finished = std::make_shared<const FinishedMap>(cleaned);
   add_node(map);
   last_heading_rad_ = map.imu_heading_rad;
   maps_[map.id] = finished;
@@ -129,6 +131,13 @@ void BackEnd::retire_unneeded(std::uint32_t newest) {
     loops_.forget(id);
     maps_.erase(id);
   }
+}
+
+/// A map was taken over by a newer one each time, so that the way from those that stay leads over none that
+/// goes.
+void BackEnd::forget_retired_before(std::uint32_t id) {
+  retired_.erase(retired_.begin(), retired_.lower_bound(id));
+  loops_.forget_refused_before(id);
 }
 
 Counters BackEnd::counters() const {

@@ -44,9 +44,12 @@ class BackEnd {
   /// its place.
   Pose2 map_T_drawn(std::uint32_t local_map_id) const;
 
-  /// The pose of a local map's origin, retired or not. REQUIRES: it was finished.
+  /// Nobody will ask any more where retired maps older than this one went; loops that were not believed and
+  /// speak of them are forgotten, too. Without it memory grows by some 200 bytes a retired map.
+  void forget_retired_before(std::uint32_t id);
+  /// The pose of a local map's origin, retired or not. REQUIRES: it was finished, and not forgotten.
   Pose2 map_T_origin(std::uint32_t id) const;
-  /// The ids of the retired ones.
+  /// The ids of the retired ones, without those forgotten.
   std::vector<std::uint32_t> retired() const;
 
   const GlobalMap& global_map() const { return global_map_; }

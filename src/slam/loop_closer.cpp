@@ -126,6 +126,11 @@ void LoopCloser::forget(std::uint32_t id) {
   std::erase_if(claims_, [id](const Claim& c) { return c.a == id || c.b == id; });
 }
 
+void LoopCloser::forget_refused_before(std::uint32_t id) {
+  const auto is_gone = [&](std::uint32_t map) { return map < id && !maps_.contains(map); };
+  std::erase_if(refused_, [&](const RefusedLoop& r) { return is_gone(r.a) || is_gone(r.b); });
+}
+
 /// Maps that may show the same place, those first whose place relative to this one is least known for what
 /// they share.
 std::vector<LoopCloser::Candidate> LoopCloser::candidates(const Known& source) const {

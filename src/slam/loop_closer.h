@@ -41,6 +41,8 @@ class LoopCloser {
   void know(std::shared_ptr<const FinishedMap> map);
   /// Forgets a map that was retired.
   void forget(std::uint32_t id);
+  /// Forgets the loops that were not believed of maps older than this one, unless they are still known.
+  void forget_refused_before(std::uint32_t id);
 
   std::uint64_t closures() const { return closures_; }
   const Counters& counters() const { return counters_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam/slam.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace dynslam {
@@ -21,7 +22,7 @@ Slam::Slam(const SlamConfig& config, StageWatch* watch)
 std::optional<ScanResult> Slam::next(bool at_end) {
   const auto fix = front_end_.next(at_end);
   if (!fix) return std::nullopt;
-  visits_.push_back({fix->stamp, fix->local_map_id, fix->drawn_T_robot});
+  remember(*fix);
   close_loops();
   draw(*fix);
   enter("");
@@ -37,6 +38,17 @@ std::optional<ScanResult> Slam::next(bool at_end) {
   return result;
 }
 
+void Slam::keep_path(std::size_t most_scans) {
+  most_visits_ = std::max<std::size_t>(most_scans, 1);
+  while (visits_.size() > most_visits_) visits_.pop_front();
+}
+
+void Slam::remember(const FrontEndResult& fix) {
+  ++scans_;
+  visits_.push_back({fix.stamp, fix.local_map_id, fix.drawn_T_robot});
+  if (visits_.size() > most_visits_) visits_.pop_front();
+}
+
 /// Hands complete local maps to the back end, and lets what it found out reach the poses when that is due.
 void Slam::close_loops() {
   while (const auto complete = front_end_.take_complete()) {
@@ -47,7 +59,7 @@ void Slam::close_loops() {
     enter("close loops");
     take_in(*complete);
   }
-  while (!corrections_.empty() && corrections_.front().due <= visits_.size()) {
+  while (!corrections_.empty() && corrections_.front().due <= scans_) {
     Correction& now = corrections_.front();
     map_T_drawn_ = now.map_T_drawn;
     if (now.found_in) front_end_.found(*now.found_in);
@@ -59,8 +71,9 @@ void Slam::close_loops() {
 void Slam::take_in(const LocalMap& complete) {
   if (!front_end_.trusts_imu()) back_end_.distrust_imu();
   back_end_.finish(complete);
+  if (scans_ > visits_.size()) back_end_.forget_retired_before(visits_.front().local_map_id);
   const auto lost = front_end_.lost_since();
-  Correction correction{visits_.size() + static_cast<std::size_t>(config_.correction_delay_scans),
+  Correction correction{scans_ + static_cast<std::size_t>(config_.correction_delay_scans),
                         back_end_.map_T_drawn(complete.id),
                         {},
                         {}};

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,10 +51,14 @@ class Slam {
   /// closing, it is only drawn by finish().
   void follow() { following_ = true; }
 
+  /// From now on trajectory() knows no more than the last so many scans (one at the least), and nothing is
+  /// kept of what came before: for a robot that never stops. Otherwise all are kept, some 50 bytes a scan.
+  void keep_path(std::size_t most_scans);
+
   /// Takes the unfinished local maps in and draws all there is. Nothing may be added after it.
   void finish();
 
-  /// The best that is known now of where every scan was taken.
+  /// The best that is known now of where every scan was taken, or those that keep_path() keeps.
   std::vector<StampedFix> trajectory() const;
 
   /// The map of everything: see follow().
@@ -81,6 +86,7 @@ class Slam {
     std::optional<std::uint32_t> found_in;  ///< the local map in which a robot that was lost was found
     std::vector<DrawnChunk> chunks;         ///< of the map that look different now
   };
+  void remember(const FrontEndResult& fix);
   void close_loops();
   void take_in(const LocalMap& complete);
   void draw(const FrontEndResult& fix);
@@ -94,7 +100,9 @@ class Slam {
   BackEnd back_end_;
   bool following_ = false;
   LiveMap map_;
-  std::vector<Visit> visits_;
+  std::size_t scans_ = 0;
+  std::size_t most_visits_ = std::numeric_limits<std::size_t>::max();
+  std::deque<Visit> visits_;  ///< the last scans
   std::deque<Correction> corrections_;
   Pose2 map_T_drawn_;  ///< as known to the poses
 };

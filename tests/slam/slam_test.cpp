@@ -439,6 +439,33 @@ TEST(Slam, ClosesLoopsWhenAsked) {
   EXPECT_GT(wall, 65) << "of 80 places, the wall between the rooms is there and thin";
 }
 
+TEST(Slam, KeepsOfThePathNoMoreThanItIsAskedTo) {
+  SlamConfig config;
+  config.scans_per_local_map = 10;
+  Drive all(config), last(config);
+  last.slam.keep_path(100);
+  for (Drive* drive : {&all, &last}) {
+    for (int i = 0; i < 700; ++i) {
+      drive->scan(0.1 * i);
+      drive->worst();
+    }
+    drive->worst(true);
+    drive->slam.finish();
+  }
+  const auto whole = all.slam.trajectory(), kept = last.slam.trajectory();
+  ASSERT_EQ(whole.size(), 700U);
+  ASSERT_EQ(kept.size(), 100U);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    EXPECT_EQ(kept[i].stamp, whole[600 + i].stamp);
+    EXPECT_EQ(kept[i].map_T_robot, whole[600 + i].map_T_robot);
+  }
+  EXPECT_GT(all.slam.back_end().retired().size(), last.slam.back_end().retired().size() + 5);
+  for (const RefusedLoop& r : last.slam.back_end().loops().refused())
+    EXPECT_NO_THROW(last.slam.back_end().map_T_origin(r.a)) << r.a << ' ' << r.b;
+  last.slam.keep_path(0);
+  EXPECT_EQ(last.slam.trajectory().size(), 1U);
+}
+
 TEST(Slam, SkipsScansTakenInAFastTurn) {
   SlamConfig config;
   config.skip_yaw_rate_radps = 2.0;
