@@ -86,6 +86,8 @@ GraphPicture picture_of(const BackEnd& back_end) {
     picture.edges.push_back({kind_of(e.kind), e.a, e.b, e.residual});
   for (const RefusedLoop& r : back_end.loops().refused())
     picture.refused.push_back({r.a, r.b, r.a_T_b, r.reason});
+  for (const RefusedLoop& r : back_end.loops().let_go())
+    picture.let_go.push_back({r.a, r.b, r.a_T_b, r.reason});
   return picture;
 }
 

@@ -111,7 +111,7 @@ void BackEnd::add_turn(std::uint32_t before, const LocalMap& map) {
 void BackEnd::settle() {
   const PoseGraphSummary summary = graph_.solve();
   if (!summary.solved) counters_.add("graph.not_solved");
-  if (!summary.let_go.empty()) counters_.add("loops.let_go", summary.let_go.size());
+  loops_.note_let_go(summary.let_go);
   std::map<std::uint32_t, Pose2> poses;
   for (const GraphNode& node : graph_.nodes()) poses[node.id] = node.map_T_node;
   global_map_.move(poses);

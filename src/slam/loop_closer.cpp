@@ -8,6 +8,8 @@
 
 #include <Eigen/LU>
 
+#include "base/number_text.h"
+
 namespace dynslam {
 namespace {
 
@@ -128,7 +130,8 @@ void LoopCloser::forget(std::uint32_t id) {
 
 void LoopCloser::forget_refused_before(std::uint32_t id) {
   const auto is_gone = [&](std::uint32_t map) { return map < id && !maps_.contains(map); };
-  std::erase_if(refused_, [&](const RefusedLoop& r) { return is_gone(r.a) || is_gone(r.b); });
+  for (auto* loops : {&refused_, &let_go_})
+    std::erase_if(*loops, [&](const RefusedLoop& r) { return is_gone(r.a) || is_gone(r.b); });
 }
 
 /// Maps that may show the same place, those first whose place relative to this one is least known for what
@@ -202,6 +205,16 @@ void LoopCloser::refuse(const Claim& claim, std::string_view why) {
   counters_.add("loops.refused." + std::string(why));
   refused_.push_back({claim.a, claim.b, claim.a_T_b.pose, std::string(why)});
   if (refused_.size() > kMostRefused) refused_.pop_front();
+}
+
+void LoopCloser::note_let_go(const std::vector<GraphEdge>& edges) {
+  for (const GraphEdge& e : edges) {
+    counters_.add("loops.let_go");
+    std::string why;
+    append_fixed(why, e.residual, 1);
+    let_go_.push_back({e.a, e.b, e.a_T_b, why + " sigma off"});
+    if (let_go_.size() > kMostRefused) let_go_.pop_front();
+  }
 }
 
 }  // namespace dynslam

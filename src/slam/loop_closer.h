@@ -15,7 +15,7 @@
 
 namespace dynslam {
 
-/// A loop that was found and not believed, for the picture of the graph.
+/// A loop that was found and is not believed, for the picture of the graph.
 struct RefusedLoop {
   std::uint32_t a = 0, b = 0;
   Pose2 a_T_b;  ///< where it would have put b; meaningless when nothing was found
@@ -41,13 +41,17 @@ class LoopCloser {
   void know(std::shared_ptr<const FinishedMap> map);
   /// Forgets a map that was retired.
   void forget(std::uint32_t id);
-  /// Forgets the loops that were not believed of maps older than this one, unless they are still known.
+  /// Forgets the loops that are not believed of maps older than this one, unless they are still known.
   void forget_refused_before(std::uint32_t id);
 
   std::uint64_t closures() const { return closures_; }
   const Counters& counters() const { return counters_; }
-  /// The last few hundred, oldest first.
+  /// Notes constraints that the graph let go.
+  void note_let_go(const std::vector<GraphEdge>& edges);
+  /// The last few hundred loops that were never believed, and those that were until the graph let them go;
+  /// oldest first.
   const std::deque<RefusedLoop>& refused() const { return refused_; }
+  const std::deque<RefusedLoop>& let_go() const { return let_go_; }
 
  private:
   struct Known {
@@ -76,7 +80,7 @@ class LoopCloser {
   PoseGraph& graph_;
   std::map<std::uint32_t, Known> maps_;
   std::deque<Claim> claims_;
-  std::deque<RefusedLoop> refused_;
+  std::deque<RefusedLoop> refused_, let_go_;
   std::uint64_t closures_ = 0;
   Counters counters_;
 };

@@ -78,7 +78,8 @@ std::vector<GraphNode> PoseGraph::nodes() const {
 std::vector<GraphEdge> PoseGraph::edges() const {
   std::vector<GraphEdge> all;
   all.reserve(edges_.size());
-  for (const auto& [key, edge] : edges_) all.push_back({key.kind, key.a, key.b, residual(key, edge)});
+  for (const auto& [key, edge] : edges_)
+    all.push_back({key.kind, key.a, key.b, residual(key, edge), edge.a_T_b.pose});
   return all;
 }
 

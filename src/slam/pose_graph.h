@@ -39,6 +39,7 @@ struct GraphEdge {
   EdgeKind kind = EdgeKind::kOdometry;
   std::uint32_t a = 0, b = 0;  ///< a < b
   double residual = 0.0;       ///< standard deviations off at the present poses
+  Pose2 a_T_b;                 ///< as measured; of a turn yaw alone
 };
 
 struct PoseGraphSummary {

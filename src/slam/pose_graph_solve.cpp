@@ -104,7 +104,7 @@ bool PoseGraph::let_go_farthest(PoseGraphSummary& summary) {
   for (const auto& [key, edge] : edges_) {
     const double off = residual(key, edge);
     if (key.kind != EdgeKind::kLoop || off <= config_.let_go_sigmas) continue;
-    far.push_back({key.kind, key.a, key.b, off});
+    far.push_back({key.kind, key.a, key.b, off, edge.a_T_b.pose});
     worst = std::max(worst, off);
   }
   // The others may only be off because the worst pull at them: they are looked at again without those.

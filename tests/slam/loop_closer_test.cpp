@@ -230,5 +230,41 @@ TEST(LoopCloser, KeepsTheLastRefusalsWithTheirReasons) {
   }
 }
 
+TEST(LoopCloser, NotesWhatTheGraphLetGo) {
+  PoseGraph graph;
+  LoopCloser closer(graph);
+  const Pose2 step{1, 0, 0}, wrong{0, 2, 0};
+  for (std::uint32_t id = 0; id < 3; ++id) {
+    graph.add_node(id, {1.0 * id, 0, 0});
+    if (id > 0) graph.add_odometry_edge(id - 1, id, step, spread(0.01, 0.003));
+  }
+  graph.add_loop_edge(0, 2, wrong, spread(0.01, 0.003));
+  closer.note_let_go(graph.solve().let_go);
+  EXPECT_EQ(closer.counters()["loops.let_go"], 1U);
+  ASSERT_EQ(closer.let_go().size(), 1U);
+  const RefusedLoop& loop = closer.let_go().front();
+  EXPECT_EQ(loop.a, 0U);
+  EXPECT_EQ(loop.b, 2U);
+  EXPECT_EQ(loop.a_T_b, wrong) << "where it would have put the map";
+  EXPECT_THAT(loop.reason, testing::MatchesRegex("[0-9]+\\.[0-9] sigma off"));
+  EXPECT_TRUE(closer.refused().empty()) << "it was believed";
+  closer.forget_refused_before(2);
+  EXPECT_TRUE(closer.let_go().empty()) << "nobody knows map 0";
+}
+
+TEST(LoopCloser, ForgetsRefusalsWithTheMapsTheySpeakOf) {
+  Tour tour(ring(), 0.02, 0.008);
+  for (std::uint32_t i = 0; i < 4; ++i) tour.go_to(corner(i));
+  tour.go_to(corner(4), kSlip);
+  ASSERT_FALSE(tour.closer.refused().empty());
+  const std::size_t all = tour.closer.refused().size();
+  tour.closer.forget_refused_before(4);
+  EXPECT_EQ(tour.closer.refused().size(), all) << "its maps are there still";
+  tour.closer.forget(0);
+  tour.closer.forget_refused_before(4);
+  for (const RefusedLoop& loop : tour.closer.refused()) EXPECT_NE(loop.a, 0U);
+  EXPECT_LT(tour.closer.refused().size(), all);
+}
+
 }  // namespace
 }  // namespace dynslam
