@@ -106,23 +106,36 @@ void searching(benchmark::State& state) {
   state.counters["maps"] = static_cast<double>(n);
 }
 
-/// A graph of n maps with a loop for each, bent by the newest.
-void solving(benchmark::State& state) {
-  const auto n = static_cast<std::size_t>(state.range(0));
+/// A loop from the map ten before to the i-th, a little off.
+void add_loop(PoseGraph& graph, std::size_t i) {
   const Eigen::Matrix3d covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
+  const Pose2 off{0.02 * std::sin(static_cast<double>(i)), 0.02, 0.002};
+  graph.add_loop_edge(static_cast<std::uint32_t>(i - 10), static_cast<std::uint32_t>(i),
+                      pose_of(i - 10).inverse() * pose_of(i) * off, covariance);
+}
+
+/// A graph of n maps with a loop for each: all of them new, which bends it the more the longer it is, or
+/// only that of the newest, as when a map is finished.
+void solve_loops(benchmark::State& state, bool all_new) {
+  const auto n = static_cast<std::size_t>(state.range(0));
+  PoseGraph before = chain(n);
+  for (std::size_t i = 10; i + 1 < n; ++i) add_loop(before, i);
+  if (!all_new) before.solve();
+  add_loop(before, n - 1);
+  int iterations = 0;
   for (auto _ : state) {
     state.PauseTiming();
-    PoseGraph graph = chain(n);
-    for (std::size_t i = 10; i < n; ++i) {
-      const Pose2 off{0.02 * std::sin(static_cast<double>(i)), 0.02, 0.002};
-      graph.add_loop_edge(static_cast<std::uint32_t>(i - 10), static_cast<std::uint32_t>(i),
-                          pose_of(i - 10).inverse() * pose_of(i) * off, covariance);
-    }
+    PoseGraph graph = before;
     state.ResumeTiming();
-    benchmark::DoNotOptimize(graph.solve());
+    const PoseGraphSummary summary = graph.solve();
+    iterations = summary.iterations;
+    benchmark::DoNotOptimize(graph);
   }
   state.counters["maps"] = static_cast<double>(n);
+  state.counters["iterations"] = iterations;
 }
+void solving(benchmark::State& state) { solve_loops(state, false); }
+void solving_all(benchmark::State& state) { solve_loops(state, true); }
 
 /// Everything of n maps drawn anew, as after a correction that moves all.
 void drawing(benchmark::State& state) {
@@ -151,7 +164,7 @@ void drawing(benchmark::State& state) {
 void register_back_end_benchmarks() {
   benchmark::RegisterBenchmark("clean_up", cleaning)->Unit(benchmark::kMillisecond);
   const std::pair<const char*, void (*)(benchmark::State&)> growing[] = {
-      {"loop_search", searching}, {"solve", solving}, {"redraw", drawing}};
+      {"loop_search", searching}, {"solve", solving}, {"solve_all_new", solving_all}, {"redraw", drawing}};
   for (const auto& [name, run] : growing) {
     benchmark::RegisterBenchmark(name, run)
         ->RangeMultiplier(2)

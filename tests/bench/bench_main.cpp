@@ -16,7 +16,15 @@
 //   room_1200_drawn   made: a furnished room of 12 x 9 m, drawn, with noise: a full turn of 1200 beams
 //   anything else     the recording that the environment variable DYNSLAM_BENCH_RECORDING names, in place of
 //   the room
+//
+// With DYNSLAM_BENCH_GROWTH=FILE.svg, how the work on a finished local map grows with those there are is
+// drawn, too:
+//
+//   DYNSLAM_BENCH_GROWTH=growth.svg build/release/tests/bench/dynslam_bench
+//       --benchmark_filter='clean_up|loop_search|solve|redraw'
 #include <cstdio>
+#include <cstdlib>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -26,6 +34,7 @@
 
 #include "base/error.h"
 #include "bench/benchmarks.h"
+#include "bench/growth_plot.h"
 #include "bench/run_table.h"
 #include "bench/summary.h"
 
@@ -43,7 +52,10 @@ class KeepingReporter : public benchmark::ConsoleReporter {
       // The median comes too where only aggregates are asked for; among single runs it is in the middle
       // anyway.
       if (run.run_type != Run::RT_Iteration && run.aggregate_name != "median") continue;
-      const std::string& benchmark = run.run_name.function_name;
+      const std::string& size = run.run_name.args;
+      const std::string benchmark = run.run_name.function_name + (size.empty() ? "" : "/" + size);
+      kept_.add(benchmark, "cpu_s",
+                run.GetAdjustedCPUTime() / benchmark::GetTimeUnitMultiplier(run.time_unit));
       for (const auto& [name, counter] : run.counters) kept_.add(benchmark, name, counter.value);
     }
   }
@@ -72,6 +84,9 @@ int run(int argc, char** argv) {
   KeepingReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   print_summary(reporter.kept());
+  if (const char* file = std::getenv("DYNSLAM_BENCH_GROWTH")) {
+    std::ofstream(file) << growth_svg(growth_of(reporter.kept()));
+  }
   return 0;
 }
 

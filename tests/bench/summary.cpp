@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "bench/summary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "grid/chunk.h"
 
@@ -106,13 +108,43 @@ void print_memory(const RunTable& runs) {
   }
 }
 
+void print_growth(const std::vector<GrowthSeries>& all) {
+  std::printf(
+      "\nwork on a finished local map, ms, and the power of the number of local maps it grows with\n");
+  for (const GrowthSeries& series : all) {
+    std::printf("  %-16s", series.name.c_str());
+    for (const auto& [maps, ms] : series.points) std::printf(" %4.0f: %8.3f", maps, ms);
+    if (series.points.size() > 1) std::printf("   power %.2f", growth_exponent(series));
+    std::printf("\n");
+  }
+}
+
 }  // namespace
+
+std::vector<GrowthSeries> growth_of(const RunTable& runs) {
+  constexpr double kMilli = 1e-3;
+  std::vector<GrowthSeries> all;
+  const double clean_up = runs.value("clean_up", "cpu_s");
+  if (clean_up > 0.0) all.push_back({"clean_up", {{1.0, clean_up / kMilli}}});
+  for (const std::string what : {"loop_search", "solve", "solve_all_new", "redraw"}) {
+    GrowthSeries series{what, {}};
+    for (const std::string& size : runs.cases_of(what)) {
+      const std::string run = what + "/" + size;
+      series.points.push_back({runs.value(run, "maps"), runs.value(run, "cpu_s") / kMilli});
+    }
+    std::sort(series.points.begin(), series.points.end(),
+              [](const auto& a, const auto& b) { return a.maps < b.maps; });
+    if (!series.points.empty()) all.push_back(std::move(series));
+  }
+  return all;
+}
 
 void print_summary(const RunTable& runs) {
   if (!runs.cases_of("clear_spans").empty()) print_clearing(runs);
   if (!runs.cases_of("clear_spans").empty()) print_clearing_traffic(runs);
   if (!runs.cases_of("match_narrow").empty()) print_matching(runs);
   if (!runs.cases_of("replay").empty()) print_memory(runs);
+  if (const auto growth = growth_of(runs); !growth.empty()) print_growth(growth);
   print_snapshots(runs);
   print_map_work(runs);
 }
