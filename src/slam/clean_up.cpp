@@ -28,6 +28,22 @@ CellBitmap with_slopes(const CellBitmap& reached, const CellBitmap& crest) {
   return front;
 }
 
+/// Grows a set by steps to the sides that lead into no wall: diagonal walls hold them too.
+void grow_up_to(CellBitmap& cells, const CellBitmap& walls, int times) {
+  for (int i = 0; i < times; ++i) {
+    cells = grown_by_sides(cells);
+    take_out(cells, walls);
+  }
+}
+
+/// Surfaces as what no way leads through: rays that graze a wall pass between its hits, and around the last
+/// of them.
+CellBitmap without_gaps(const Sight& sight) {
+  CellBitmap closed = sight.faint;
+  add_all(closed, gaps_in_lines(sight.crest));
+  return closed;
+}
+
 /// The cells not seen at all and those near one.
 CellBitmap rim_of_unseen(const Sight& sight) {
   CellBitmap unseen;
@@ -70,15 +86,18 @@ FinishedMap clean_up(const LocalMap& map, std::uint32_t id, Time ended) {
   out.begun = map.begun;
   out.ended = ended;
   const Sight sight = sight_of(map.grid);
-  const CellBitmap reached = flood_fill(sight.seen_through, cells_of(map.robot_positions, out.cell_size_m));
-  CellBitmap front = with_slopes(reached, sight.crest);
+  const CellBitmap closed = without_gaps(sight);
+  CellBitmap through = sight.seen_through;
+  take_out(through, closed);
+  const CellBitmap reached = flood_fill(through, cells_of(map.robot_positions, out.cell_size_m));
+  CellBitmap front = with_slopes(reached, closed);
   CellBitmap occupied = sight.crest;
   keep_only(occupied, grown_all_round(front));
   CellBitmap free = reached;
   take_out(free, sight.doubtful);
   take_out(free, rim_of_unseen(sight));
-  // What hid the crest from view was not there: the ray had to pass it.
-  keep_only(front, grown_all_round(occupied, kSlopeWidth));
+  // What hid the crest from view was not there: the ray had to pass it. Past the end of one, who knows.
+  keep_only(front, grown_across(occupied));
   add_all(free, front);
   take_out(free, occupied);
   out.free = TiledBitmap(free);
@@ -88,14 +107,30 @@ FinishedMap clean_up(const LocalMap& map, std::uint32_t id, Time ended) {
   return out;
 }
 
+void mend_walls(CellBitmap& occupied, const CellBitmap& free) {
+  CellBitmap gaps = gaps_in_lines(occupied);
+  take_out(gaps, free);
+  add_all(occupied, gaps);
+}
+
 void fill_cracks(CellBitmap& free, const CellBitmap& occupied, int crack_cells) {
-  free = shrunk_all_round(grown_all_round(free, crack_cells / 2), crack_cells / 2);
-  take_out(free, occupied);
+  CellBitmap filled = free;
+  grow_up_to(filled, occupied, crack_cells / 2);
+  CellBitmap unknown = complement(filled);
+  take_out(unknown, occupied);
+  grow_up_to(unknown, occupied, crack_cells / 2);
+  take_out(filled, unknown);
+  add_all(free, filled);
 }
 
 void drop_gaps(CellBitmap& free, CellBitmap& occupied, int gap_cells) {
   free = flood_fill(free, shrunk_all_round(free, gap_cells / 2));
-  keep_only(occupied, grown_all_round(free));
+  CellBitmap before = grown_by_sides(free);
+  take_out(before, occupied);
+  CellBitmap in_view = occupied;
+  keep_only(in_view, grown_all_round(before));
+  take_out(occupied, grown_all_round(in_view, gap_cells / 2));
+  add_all(occupied, in_view);
 }
 
 }  // namespace dynslam

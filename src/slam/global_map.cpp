@@ -24,8 +24,8 @@ constexpr int kSurfaceWorth = 4;
 /// Free space narrower than this many cells, with no way to wider parts, is the gap between two drawings of
 /// one wall.
 constexpr int kGap = 8;
-/// Cells in doubt in the midst of free space, as there are beside walls, are no wider.
-constexpr int kCrack = 4;
+/// Cells in doubt in the midst of free space, as there are beside walls, are no wider, corner to corner.
+constexpr int kCrack = 6;
 
 /// The power of two nearest to half a metre, from 8 to 32 cells.
 int block_bits_for(double cell_size_m) {
@@ -244,6 +244,7 @@ std::vector<DrawnChunk> GlobalMap::publish() {
     free.put(chunk, picture.drawn.free);
     occupied.put(chunk, picture.drawn.occupied);
   }
+  mend_walls(occupied, free);
   fill_cracks(free, occupied, kCrack);
   drop_gaps(free, occupied, kGap);
   std::vector<DrawnChunk> changed;

@@ -28,7 +28,8 @@ struct DrawnChunk {
 ///
 /// Each cell shows what the newest local map that knows it says. A map that is silent about a cell leaves
 /// what older ones said, except right beside its own surfaces: an older wall drawn a cell or two behind a
-/// newer one is the same wall. What no one can see any more for newer walls is dropped.
+/// newer one is the same wall. (Past the newer one's end it goes on.) What lies right behind newer walls,
+/// where no one can see it any more, is dropped.
 ///
 /// The history map is kept in blocks of about half a metre. Each names the maps that show in it, newest
 /// first; drawing it takes out the names of those that do not. A map that no block names is not needed.
@@ -57,7 +58,7 @@ class GlobalMap {
   std::size_t redraw(std::size_t most_blocks);
 
   /// Drops what cannot be seen and returns the chunks that look different from when this was called last.
-  /// Linear in the rectangle of the building, some 2 ms for 40 x 40 m at 2 cm.
+  /// Linear in the rectangle of the building, a few ms for 40 x 40 m at 2 cm.
   std::vector<DrawnChunk> publish();
 
   /// Maps that no block needs any more; they are taken out. `keep` and newer ones stay in any case.

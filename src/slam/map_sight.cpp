@@ -2,9 +2,14 @@
 #include "slam/map_sight.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <optional>
+
+#include "base/angles.h"
+#include "grid/bitmap_sets.h"
 
 namespace dynslam {
 namespace {
@@ -15,6 +20,12 @@ constexpr int kSide = kChunkSide + 2 * kRim;
 /// Found on simulated recordings: less lets in noise, more loses walls seen from far off or at a grazing
 /// angle.
 constexpr int kLeastHits = 15 * 256;
+/// Enough between surfaces that are clear, no farther from them than so many cells: at corners, and where
+/// beams graze a wall.
+constexpr int kLeastFaintHits = 5 * 256;
+constexpr int kFaintReach = 3;
+/// What more than five rays passed for each hit, smoothed, is a gap between two posts.
+constexpr int kFaintHitsPerMiss = 256 / 5;
 /// A lidar with few beams passes a wall's cell between two hits more often than it hits it.
 constexpr int kMissesPerHit = 3;
 /// One hit within two cells is enough for doubt.
@@ -136,32 +147,77 @@ void read_empty_chunk(const Chunk& chunk, CellIndex first, Sight& sight) {
 void read_row(const SmoothChunk& smooth, const Chunk& chunk, int y, CellIndex first, Sight& sight) {
   const std::uint8_t *hit = chunk.hit[y], *miss = chunk.miss[y];
   const std::uint16_t* s = &smooth.at(0, y);
-  std::uint8_t seen[kChunkSide], thick[kChunkSide], doubtful[kChunkSide], surface[kChunkSide];
+  std::uint8_t seen[kChunkSide], thick[kChunkSide], doubtful[kChunkSide], surface[kChunkSide],
+      faint[kChunkSide];
   for (int x = 0; x < kChunkSide; ++x) {
     seen[x] = (miss[x] > 0) & (miss[x] >= hit[x]);
     thick[x] = hit[x] > miss[x];
     doubtful[x] = s[x] >= kDoubtfulHits;
     surface[x] = is_surface(s[x], hit[x], miss[x]);
+    faint[x] = (s[x] >= kLeastFaintHits) & (s[x] >= kFaintHitsPerMiss * miss[x]);
   }
   std::uint64_t crest = 0;
-  for (std::uint64_t left = packed(surface); left != 0; left &= left - 1) {
+  for (std::uint64_t left = packed(faint); left != 0; left &= left - 1) {
     const int x = std::countr_zero(left);
     if (const auto c = crest_at(s + x)) {
       crest |= std::uint64_t{1} << x;
       sight.crests.push_back({{first.x + x, first.y}, c->x(), c->y(), hit[x]});
     }
   }
-  word_at(sight.crest, first) = crest;
-  word_at(sight.seen_through, first) = packed(seen) & ~crest;
-  word_at(sight.thick, first) = packed(thick) & ~crest;
-  word_at(sight.doubtful, first) = packed(doubtful) & packed(seen) & ~crest;
+  word_at(sight.crest, first) = crest & packed(surface);
+  word_at(sight.faint, first) = crest;
+  word_at(sight.seen_through, first) = packed(seen);
+  word_at(sight.thick, first) = packed(thick);
+  word_at(sight.doubtful, first) = packed(doubtful) & packed(seen);
+}
+
+/// Sixteen directions, and in which of them there are crests no farther than kFaintReach, a bit each.
+std::uint32_t directions_of_crests(const CellBitmap& crest, CellIndex at) {
+  static const auto kDirections = [] {
+    std::array<std::uint16_t, (2 * kFaintReach + 1) * (2 * kFaintReach + 1)> table{};
+    std::size_t i = 0;
+    for (int dy = -kFaintReach; dy <= kFaintReach; ++dy) {
+      for (int dx = -kFaintReach; dx <= kFaintReach; ++dx, ++i) {
+        const auto direction = std::lround(std::atan2(dy, dx) * (16 / kTwoPi));
+        table[i] = static_cast<std::uint16_t>(dx == 0 && dy == 0 ? 0 : 1U << (direction & 15));
+      }
+    }
+    return table;
+  }();
+  std::uint32_t found = 0;
+  std::size_t i = 0;
+  for (int dy = -kFaintReach; dy <= kFaintReach; ++dy) {
+    for (int dx = -kFaintReach; dx <= kFaintReach; ++dx, ++i) {
+      if (crest.test({at.x + dx, at.y + dy})) found |= kDirections[i];
+    }
+  }
+  return found;
+}
+
+/// Whether two of the directions are more than a right angle apart. (A cell beside a straight wall sees a
+/// right angle of it.)
+bool are_on_both_sides(std::uint32_t directions) {
+  const std::uint32_t twice = directions | directions << 16;
+  bool any = false;
+  for (int turn = 5; turn <= 8; ++turn) any = any || (directions & twice >> turn) != 0;
+  return any;
+}
+
+/// Makes surfaces of the faint crests that lie between clear ones. No rows of them grow out into the open.
+void bridge_gaps(Sight& sight) {
+  std::vector<CellIndex> between;
+  for (const Crest& c : sight.crests) {
+    if (!sight.crest.test(c.cell) && are_on_both_sides(directions_of_crests(sight.crest, c.cell)))
+      between.push_back(c.cell);
+  }
+  for (const CellIndex c : between) sight.crest.set(c);
 }
 
 }  // namespace
 
 Sight sight_of(const ChunkedGrid& grid) {
   Sight sight;
-  for (CellBitmap* b : {&sight.crest, &sight.seen_through, &sight.thick, &sight.doubtful})
+  for (CellBitmap* b : {&sight.crest, &sight.faint, &sight.seen_through, &sight.thick, &sight.doubtful})
     b->reset(grid.box());
   SmoothChunk smooth;
   for (std::int32_t cy = grid.box().min.y; cy <= grid.box().max.y; ++cy) {
@@ -176,6 +232,8 @@ Sight sight_of(const ChunkedGrid& grid) {
       for (int y = 0; y < kChunkSide; ++y) read_row(smooth, *chunk, y, {first.x, first.y + y}, sight);
     }
   }
+  bridge_gaps(sight);
+  for (CellBitmap* b : {&sight.seen_through, &sight.thick, &sight.doubtful}) take_out(*b, sight.crest);
   return sight;
 }
 

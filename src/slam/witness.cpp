@@ -4,11 +4,12 @@
 #include <bit>
 #include <cmath>
 
+#include "grid/bitmap_sets.h"
+
 namespace dynslam {
 namespace {
 
-constexpr int kWall = 2;  ///< cells: an older surface this near to a newer one is the same
-constexpr int kRim = kWall + 2;
+constexpr int kRim = 4;  ///< cells around a block that its shadows depend on
 
 /// 64 x 64 cells of a finished map around a block, out of the tiles and in one place. 32 cells on the
 /// diagonal and the rim fit in.
@@ -22,16 +23,26 @@ class Patch {
       any_ |= free_[r] | occupied_[r];
       any_occupied_ |= occupied_[r];
     }
+    if (any_occupied_ == 0) return;
+    // An older surface beside a newer one, within two cells, is the same. Past its end it goes on.
+    CellBitmap surface;
+    surface.reset({{0, 0}, {0, 0}});
+    surface.put({0, 0}, occupied_);
+    shadow_ = grown_across(surface).tile({0, 0});
     near_ = occupied_;
-    for (int step = 0; any_occupied_ != 0 && step < kWall; ++step) grow_near();
+    grow_near();
+    grow_near();
   }
 
   bool is_empty() const { return any_ == 0; }
   bool is_free(int x, int y) const { return (free_[static_cast<std::size_t>(y)] >> x & 1U) != 0; }
   bool is_occupied(int x, int y) const { return (occupied_[static_cast<std::size_t>(y)] >> x & 1U) != 0; }
   bool is_near(int x, int y) const { return (near_[static_cast<std::size_t>(y)] >> x & 1U) != 0; }
+  bool is_in_shadow(int x, int y) const { return (shadow_[static_cast<std::size_t>(y)] >> x & 1U) != 0; }
 
  private:
+  using Rows = std::array<std::uint64_t, 64>;
+
   void grow_near() {
     std::uint64_t below = 0;
     for (std::size_t r = 0; r < static_cast<std::size_t>(rows_); ++r) {
@@ -44,7 +55,7 @@ class Patch {
 
   int rows_;
   std::uint64_t any_ = 0, any_occupied_ = 0;
-  std::array<std::uint64_t, 64> free_{}, occupied_{}, near_{};
+  Rows free_{}, occupied_{}, near_{}, shadow_{};
 };
 
 /// From cells of the block to cells of the patch, in 1/65536 of a cell.
@@ -79,9 +90,9 @@ class Turn {
   std::array<std::int32_t, 4> off_x_{}, off_y_{};
 };
 
-/// Of the undecided cells of a row: free, occupied, and near a surface.
+/// Of the undecided cells of a row: free, occupied, and right beside a surface.
 struct RowWord {
-  std::uint32_t free = 0, occupied = 0, near = 0;
+  std::uint32_t free = 0, occupied = 0, shadow = 0;
 };
 
 RowWord read_row(const Patch& patch, const Turn& turn, int y, std::uint32_t undecided) {
@@ -96,8 +107,8 @@ RowWord read_row(const Patch& patch, const Turn& turn, int y, std::uint32_t unde
       word.occupied |= bit;
     } else if (patch.is_free(px, py)) {
       word.free |= bit;
-    } else if (near) {
-      word.near |= bit;
+    } else if (patch.is_in_shadow(px, py)) {
+      word.shadow |= bit;
     }
   }
   return word;
@@ -138,7 +149,7 @@ Testimony hear(const FinishedMap& map, const Pose2& map_T_origin, BlockView& blo
     const std::uint32_t occupied = word.occupied & ~block.no_wall[i];
     block.free[i] |= word.free;
     block.occupied[i] |= occupied;
-    block.no_wall[i] |= word.occupied | word.near;
+    block.no_wall[i] |= word.occupied | word.shadow;
     block.undecided[i] &= ~(word.free | occupied);
     testimony.free += std::popcount(word.free);
     testimony.occupied += std::popcount(occupied);
