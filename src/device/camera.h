@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "base/jpeg_frame.h"
+
+namespace dynslam {
+
+/// A camera that looks ahead. Used by one thread, and only while somebody watches: between calls it may sleep.
+class Camera {
+ public:
+  virtual ~Camera() = default;
+  /// Waits for the next picture, until the robot's clock says `until` at most; nothing when none came. Throws
+  /// DeviceError.
+  virtual std::optional<JpegFrame> next(Time until) = 0;
+};
+
+}  // namespace dynslam
