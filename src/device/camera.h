@@ -7,7 +7,8 @@
 
 namespace dynslam {
 
-/// A camera that looks ahead. Used by one thread, and only while somebody watches: between calls it may sleep.
+/// A camera that looks ahead. Used by one thread, and only while somebody watches: between calls it may
+/// sleep.
 class Camera {
  public:
   virtual ~Camera() = default;

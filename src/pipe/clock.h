@@ -45,7 +45,7 @@ class SteppedClock : public Clock {
   explicit SteppedClock(Time begin = Time()) : now_(begin) {}
 
   Time now() const override { return now_.load(); }
-  SteadyTime steady(Time) const override { return SteadyTime::min(); }
+  SteadyTime steady(Time) const override { return {}; }  // long past
   /// REQUIRES: not before now().
   void set(Time t) { now_.store(t); }
 
