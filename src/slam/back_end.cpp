@@ -52,12 +52,11 @@ void BackEnd::distrust_imu() {
   last_heading_rad_.reset();
 }
 
-void BackEnd::preview(const LocalMap& map) {
+void BackEnd::preview(const std::shared_ptr<const FinishedMap>& so_far) {
   drop_preview();
   global_map_.redraw(std::numeric_limits<std::size_t>::max());  // names are only taken out without it
-  const auto so_far = std::make_shared<const FinishedMap>(clean_up(map, map.id, map.ended));
-  global_map_.place_for_now(so_far, map_T_drawn(map.id) * map.map_T_origin);
-  preview_ = map.id;
+  global_map_.place_for_now(so_far, map_T_drawn(so_far->id) * so_far->drawn_T_origin);
+  preview_ = so_far->id;
 }
 
 void BackEnd::drop_preview() {

@@ -31,7 +31,7 @@ class BackEnd {
   void distrust_imu();
 
   /// Shows what there is of the next one until it is complete.
-  void preview(const LocalMap& map);
+  void preview(const std::shared_ptr<const FinishedMap>& so_far);
   /// Draws all that changed; returns the chunks that look different from when this was called last.
   std::vector<DrawnChunk> draw();
 

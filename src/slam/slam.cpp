@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "slam/clean_up.h"
+
 namespace dynslam {
 namespace {
 
@@ -24,6 +26,7 @@ std::optional<ScanResult> Slam::next(bool at_end) {
   if (!fix) return std::nullopt;
   remember(*fix);
   close_loops();
+  apply_corrections();
   draw(*fix);
   enter("");
   ScanResult result;
@@ -49,40 +52,62 @@ void Slam::remember(const FrontEndResult& fix) {
   if (visits_.size() > most_visits_) visits_.pop_front();
 }
 
-/// Hands complete local maps to the back end, and lets what it found out reach the poses when that is due.
+/// Hands complete local maps to the back end, or puts them by for who does.
 void Slam::close_loops() {
-  while (const auto complete = front_end_.take_complete()) {
-    if (!config_.close_loops) {  // nobody needs them, and nobody will know better where the robot is
+  while (auto complete = front_end_.take_complete()) {
+    if (config_.close_loops) {
+      jobs_.push_back(job_for(std::move(*complete)));
+    } else {  // nobody needs them, and nobody will know better where the robot is
       front_end_.found(complete->id);
-      continue;
     }
-    enter("close loops");
-    take_in(*complete);
   }
+  if (elsewhere_) return;
+  while (const auto job = take_job()) {
+    enter("close loops");
+    corrections_.push_back(
+        {scans_ + static_cast<std::size_t>(config_.correction_delay_scans), work_off(*job)});
+  }
+}
+
+GraphJob Slam::job_for(LocalMap complete) const {
+  GraphJob job{std::move(complete), {}, front_end_.trusts_imu(), front_end_.lost_since(), {}};
+  if (scans_ > visits_.size()) job.path_from = visits_.front().local_map_id;
+  if (following_ && !front_end_.local_maps().empty()) {
+    const LocalMap& next = front_end_.local_maps().front();
+    job.next_so_far = std::make_shared<const FinishedMap>(clean_up(next, next.id, next.ended));
+  }
+  return job;
+}
+
+std::optional<GraphJob> Slam::take_job() {
+  if (jobs_.empty()) return std::nullopt;
+  std::optional<GraphJob> job(std::move(jobs_.front()));
+  jobs_.pop_front();
+  return job;
+}
+
+Correction Slam::work_off(const GraphJob& job) {
+  if (!job.trusts_imu) back_end_.distrust_imu();
+  back_end_.finish(job.complete);
+  if (job.path_from) back_end_.forget_retired_before(*job.path_from);
+  Correction correction{back_end_.map_T_drawn(job.complete.id), {}, {}};
+  if (job.lost_since && back_end_.knows_since(*job.lost_since)) correction.found_in = job.complete.id;
+  if (job.next_so_far) {
+    back_end_.preview(job.next_so_far);
+    correction.chunks = back_end_.draw();
+  }
+  return correction;
+}
+
+/// Lets what the back end found out reach the poses and the map, when that is due.
+void Slam::apply_corrections() {
   while (!corrections_.empty() && corrections_.front().due <= scans_) {
-    Correction& now = corrections_.front();
+    const Correction& now = corrections_.front().correction;
     map_T_drawn_ = now.map_T_drawn;
     if (now.found_in) front_end_.found(*now.found_in);
     if (following_) map_.redrawn(now.chunks);
     corrections_.pop_front();
   }
-}
-
-void Slam::take_in(const LocalMap& complete) {
-  if (!front_end_.trusts_imu()) back_end_.distrust_imu();
-  back_end_.finish(complete);
-  if (scans_ > visits_.size()) back_end_.forget_retired_before(visits_.front().local_map_id);
-  const auto lost = front_end_.lost_since();
-  Correction correction{scans_ + static_cast<std::size_t>(config_.correction_delay_scans),
-                        back_end_.map_T_drawn(complete.id),
-                        {},
-                        {}};
-  if (lost && back_end_.knows_since(*lost)) correction.found_in = complete.id;
-  if (following_) {
-    if (!front_end_.local_maps().empty()) back_end_.preview(front_end_.local_maps().front());
-    correction.chunks = back_end_.draw();
-  }
-  corrections_.push_back(std::move(correction));
 }
 
 /// Keeps the map up with the scan: what the back end has drawn, and the scan on top of it.
@@ -101,9 +126,10 @@ void Slam::draw(const FrontEndResult& fix) {
 
 void Slam::finish() {
   if (!config_.close_loops) return;
+  while (const auto job = take_job()) correct(work_off(*job));
   front_end_.complete_all();
   while (const auto complete = front_end_.take_complete()) back_end_.finish(*complete);
-  for (const Correction& c : corrections_) map_.redrawn(c.chunks);
+  for (const Pending& p : corrections_) map_.redrawn(p.correction.chunks);
   corrections_.clear();
   map_.settle(back_end_.draw());
 }

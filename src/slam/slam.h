@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,9 +33,29 @@ struct StampedFix {
   Pose2 map_T_robot;
 };
 
-/// Front end and back end in one thread: from sensor samples to poses and a map of everything. A correction
-/// by the back end reaches the poses a fixed number of scans later, as it would if the back end had a thread
-/// of its own; so the same samples give the same results on every machine.
+/// A complete local map on its way to the back end, and what the back end has to know with it.
+struct GraphJob {
+  LocalMap complete;
+  std::shared_ptr<const FinishedMap> next_so_far;  ///< what there is of the map after it; null: nobody looks
+  bool trusts_imu = true;
+  std::optional<std::uint32_t> lost_since;  ///< see FrontEnd
+  std::optional<std::uint32_t> path_from;   ///< of what came before this local map nothing will be asked
+};
+
+/// What came of it: since the correction before it.
+struct Correction {
+  Pose2 map_T_drawn;
+  std::optional<std::uint32_t> found_in;  ///< the local map in which a robot that was lost was found
+  std::vector<DrawnChunk> chunks;         ///< of the map that look different now
+};
+
+/// Front end and back end: from sensor samples to poses and a map of everything. Left alone it works in one
+/// thread, and a correction by the back end reaches the poses a fixed number of scans later, as it would if
+/// the back end had a thread of its own; so the same samples give the same results on every machine.
+///
+/// For a robot that must not wait for its loops, see close_loops_elsewhere(): then one other thread may call
+/// work_off() at any time, and nothing else. back_end(), local_maps_active(), trajectory(), counters() and
+/// finish() are only for when it does not.
 class Slam {
  public:
   /// `watch`, when given, must outlive this. Throws InputError for a config with a problem().
@@ -54,6 +75,14 @@ class Slam {
   /// From now on trajectory() knows no more than the last so many scans (one at the least), and nothing is
   /// kept of what came before: for a robot that never stops. Otherwise all are kept, some 50 bytes a scan.
   void keep_path(std::size_t most_scans);
+
+  /// From now on next() leaves complete local maps to the caller: to be taken, worked off, and what came of
+  /// them given back, all in order.
+  void close_loops_elsewhere() { elsewhere_ = true; }
+  std::optional<GraphJob> take_job();
+  Correction work_off(const GraphJob& job);
+  /// Reaches the poses with the next scan.
+  void correct(Correction correction) { corrections_.push_back({scans_, std::move(correction)}); }
 
   /// Takes the unfinished local maps in and draws all there is. Nothing may be added after it.
   void finish();
@@ -80,15 +109,14 @@ class Slam {
     std::uint32_t local_map_id = 0;
     Pose2 drawn_T_robot;
   };
-  struct Correction {
+  struct Pending {
     std::size_t due = 0;  ///< at this many scans
-    Pose2 map_T_drawn;
-    std::optional<std::uint32_t> found_in;  ///< the local map in which a robot that was lost was found
-    std::vector<DrawnChunk> chunks;         ///< of the map that look different now
+    Correction correction;
   };
   void remember(const FrontEndResult& fix);
   void close_loops();
-  void take_in(const LocalMap& complete);
+  GraphJob job_for(LocalMap complete) const;
+  void apply_corrections();
   void draw(const FrontEndResult& fix);
   void enter(std::string_view stage) {
     if (watch_) watch_->enter(stage);
@@ -103,7 +131,9 @@ class Slam {
   std::size_t scans_ = 0;
   std::size_t most_visits_ = std::numeric_limits<std::size_t>::max();
   std::deque<Visit> visits_;  ///< the last scans
-  std::deque<Correction> corrections_;
+  bool elsewhere_ = false;
+  std::deque<GraphJob> jobs_;
+  std::deque<Pending> corrections_;
   Pose2 map_T_drawn_;  ///< as known to the poses
 };
 

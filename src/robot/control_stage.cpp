@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "robot/control_stage.h"
+
+#include <algorithm>
+
+#include "device/device_error.h"
+
+namespace dynslam {
+namespace {
+
+/// Reading the board takes as long as driving it; brownouts last some tenths of a second.
+constexpr Duration kReadMotorsEvery = std::chrono::milliseconds(100);
+constexpr Duration kShowHealthEvery = std::chrono::milliseconds(500);
+
+template <class T>
+std::optional<T> value_of(const typename Latest<T>::Item& item) {
+  return item.value ? std::optional<T>(*item.value) : std::nullopt;
+}
+
+}  // namespace
+
+ControlStage::ControlStage(Motors* motors, Pins* pins, const DriveConfig& config, const Clock& clock,
+                           Ports& ports, const Latest<ImuSample>& imu)
+    : motors_(motors),
+      pins_(pins),
+      clock_(clock),
+      ports_(ports),
+      imu_(imu),
+      control_(config),
+      due_(clock.now()),
+      motors_due_(due_) {
+  motors_health_.present = motors != nullptr;
+  pins_health_.present = pins != nullptr;
+}
+
+void ControlStage::turn() {
+  const Time begun = clock_.now();
+  read_motors(begun);
+  read_pins(begun);
+  inputs_.command = value_of<DriveCommand>(ports_.command.get());
+  inputs_.scan = ports_.scan.get().value;
+  inputs_.imu = value_of<ImuSample>(imu_.get());
+  inputs_.power_limit = ports_.power_limit;
+  inputs_.clear_asked = ports_.clear_asked.exchange(false);
+  inputs_.stop_asked.reset();
+  while (auto by = ports_.stops.try_pop()) inputs_.stop_asked = std::move(by);
+
+  const Time now = clock_.now();
+  const DriveOutput out = control_.step(now, inputs_);
+  drive(out.power);
+  ports_.drive.put({now, out.verdict, out.applied, out.power, out.battery});
+  due_ = std::max(due_ + kTick, now);  // ticks that were missed are not made up for
+  if (const auto deadline = control_.deadline(); deadline && *deadline > now)
+    due_ = std::min(due_, *deadline);
+}
+
+void ControlStage::halt() {
+  inputs_.command.reset();
+  drive({});
+}
+
+void ControlStage::read_motors(Time now) {
+  if (!motors_ || now < motors_due_) return;
+  motors_due_ = now + kReadMotorsEvery;
+  try {
+    inputs_.motors = {clock_.now(), motors_->read()};
+    note_answer(motors_health_, ports_.motors_health, now);
+  } catch (const DeviceError& e) {
+    note_trouble(motors_health_, ports_.motors_health, e.what());
+  }
+}
+
+void ControlStage::read_pins(Time now) {
+  if (!pins_) return;
+  try {
+    inputs_.pins = {clock_.now(), pins_->read()};
+    note_answer(pins_health_, ports_.pins_health, now);
+  } catch (const DeviceError& e) {
+    note_trouble(pins_health_, ports_.pins_health, e.what());
+  }
+}
+
+void ControlStage::drive(const WheelPower& power) {
+  if (!motors_) return;
+  try {
+    motors_->drive(power);
+  } catch (const DeviceError& e) {
+    note_trouble(motors_health_, ports_.motors_health, e.what());
+  }
+}
+
+void ControlStage::note_trouble(DeviceHealth& health, Latest<DeviceHealth>& shown,
+                                const std::string& trouble) {
+  ++health.errors;
+  health.trouble = trouble;
+  shown.put(health);
+}
+
+void ControlStage::note_answer(DeviceHealth& health, Latest<DeviceHealth>& shown, Time now) {
+  ++health.samples;
+  const bool show =
+      health.samples == 1 || !health.trouble.empty() || now >= health.last_sample + kShowHealthEvery;
+  if (!show) return;
+  health.last_sample = now;
+  health.trouble.clear();
+  shown.put(health);
+}
+
+}  // namespace dynslam

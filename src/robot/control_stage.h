@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "device/devices.h"
+#include "drive/drive_control.h"
+#include "robot/ports.h"
+
+namespace dynslam {
+
+/// The 50 Hz tick between commands and motors: takes the newest of everything, lets DriveControl decide, and
+/// drives. Never waits for anything but the motor board and the pins. One thread.
+class ControlStage {
+ public:
+  static constexpr Duration kTick = std::chrono::milliseconds(20);
+
+  /// `motors` and `pins` may be null: then there is nothing to drive, or no e-stop. All must outlive this.
+  ControlStage(Motors* motors, Pins* pins, const DriveConfig& config, const Clock& clock, Ports& ports,
+               const Latest<ImuSample>& imu);
+
+  /// One tick, now.
+  void turn();
+  /// When the next is due: a tick later, or when the driver's heartbeat runs out.
+  Time due() const { return due_; }
+  /// Stands still, whatever the board says to that. The last thing that is driven.
+  void halt();
+
+  const DriveControl& control() const { return control_; }
+
+ private:
+  void read_motors(Time now);
+  void read_pins(Time now);
+  void drive(const WheelPower& power);
+  void note_trouble(DeviceHealth& health, Latest<DeviceHealth>& shown, const std::string& trouble);
+  void note_answer(DeviceHealth& health, Latest<DeviceHealth>& shown, Time now);
+
+  Motors* motors_;
+  Pins* pins_;
+  const Clock& clock_;
+  Ports& ports_;
+  const Latest<ImuSample>& imu_;
+  DriveControl control_;
+  DriveInputs inputs_;
+  Time due_, motors_due_;
+  DeviceHealth motors_health_, pins_health_;
+};
+
+}  // namespace dynslam

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+
+#include "base/battery_state.h"
+#include "base/drive_command.h"
+#include "base/jpeg_frame.h"
+#include "base/motor_state.h"
+#include "base/scan.h"
+#include "base/verdict.h"
+#include "grid/world_state.h"
+#include "pipe/bounded_queue.h"
+#include "pipe/latest.h"
+
+namespace dynslam {
+
+/// How a device is doing, as shown to people.
+struct DeviceHealth {
+  bool present = false;
+  std::uint64_t samples = 0;
+  std::uint64_t errors = 0;
+  Time last_sample;     ///< stamp of the newest
+  std::string trouble;  ///< what it said last, empty while it answers
+};
+
+/// What is driven and why, after a tick of the control.
+struct DriveState {
+  Time time;
+  Verdict verdict;
+  Twist applied;
+  WheelPower power;
+  BatteryState battery;
+};
+
+/// The pipes of a robot that outsiders may touch: the server, missions, recorders. Any thread.
+struct Ports {
+  // To the robot.
+  Latest<DriveCommand> command;  ///< newest wins; each is a heartbeat too
+  std::atomic<double> power_limit{1.0};
+  BoundedQueue<std::string> stops{16};  ///< who asks for a stop; that there was one is never lost
+  std::atomic<bool> clear_asked{
+      false};                    ///< a person clears latched stops; a stop asked for at the same time wins
+  std::atomic<int> watchers{0};  ///< of the video: the camera runs while there are any
+
+  // From the robot.
+  Latest<WorldState> world;
+  Latest<Scan> scan;
+  Latest<DriveState> drive;
+  Latest<JpegFrame> video;
+  Latest<DeviceHealth> lidar_health, imu_health, motors_health, camera_health, pins_health;
+};
+
+}  // namespace dynslam

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "robot/robot.h"
+
+#include <exception>
+#include <utility>
+
+namespace dynslam {
+namespace {
+
+constexpr Duration kNobodyWatches = std::chrono::milliseconds(100);
+
+}  // namespace
+
+Robot::Robot(Devices devices, const RobotConfig& config, const Clock& clock)
+    : devices_(std::move(devices)),
+      clock_(clock),
+      slam_(config.slam),
+      slam_stage_(slam_, ports_, clock),
+      control_(devices_.motors.get(), devices_.pins.get(), config.drive, clock, ports_, newest_imu_) {
+  slam_.follow();
+  if (devices_.lidar) {
+    const auto take = [this](Scan scan) {
+      const auto shared = std::make_shared<const Scan>(std::move(scan));
+      ports_.scan.put(shared);
+      slam_stage_.add(shared);
+    };
+    lidar_.emplace([this](Time until) { return devices_.lidar->next(until); }, take, clock,
+                   ports_.lidar_health);
+  }
+  if (devices_.imu) {
+    const auto take = [this](const ImuSample& sample) {
+      newest_imu_.put(sample);
+      slam_stage_.add(sample);
+    };
+    imu_.emplace([this](Time until) { return devices_.imu->next(until); }, take, clock, ports_.imu_health);
+  }
+  if (devices_.camera) {
+    const auto take = [this](JpegFrame frame) { ports_.video.put(std::move(frame)); };
+    camera_.emplace([this](Time until) { return devices_.camera->next(until); }, take, clock,
+                    ports_.camera_health);
+  }
+}
+
+Robot::~Robot() { stop(); }
+
+void Robot::start() {
+  slam_.close_loops_elsewhere();
+  start_thread("control", [this] { run_control(); });
+  if (lidar_) start_thread("lidar", [this] { lidar_->turn(stop_); });
+  if (imu_) start_thread("imu", [this] { imu_->turn(stop_); });
+  if (camera_) start_thread("camera", [this] { poll_camera(); });
+  start_thread("slam", [this] { slam_stage_.turn(); });
+  start_thread("graph", [this] { slam_stage_.graph_turn(); });
+}
+
+/// A thread takes turns until it is asked to stop. What it throws ends the robot, not the program.
+void Robot::start_thread(const char* name, std::function<void()> turn) {
+  std::promise<void> ended;
+  std::future<void> end = ended.get_future();
+  const auto run = [this, name, turn = std::move(turn), ended = std::move(ended)]() mutable {
+    try {
+      while (!stop_.requested()) turn();
+    } catch (const std::exception& e) {
+      stop_.request(std::string(name) + ": " + e.what());
+    }
+    ended.set_value();
+  };
+  threads_.push_back({std::thread(std::move(run)), std::move(end)});
+}
+
+/// Ticks until the end, and stands still then, whatever it is that ends it.
+void Robot::run_control() {
+  try {
+    while (!stop_.wait(clock_.steady(control_.due()))) control_.turn();
+  } catch (...) {
+    control_.halt();
+    throw;
+  }
+  control_.halt();
+}
+
+void Robot::poll_camera() {
+  if (ports_.watchers > 0) {
+    camera_->turn(stop_);
+  } else {
+    stop_.wait(clock_.steady(clock_.now() + kNobodyWatches));
+  }
+}
+
+Robot::Ending Robot::stop(std::chrono::milliseconds patience) {
+  stop_.request();
+  slam_stage_.close();
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  Ending ending;
+  for (Thread& t : threads_) {
+    if (t.ended.wait_until(deadline) != std::future_status::ready) ending.hangs = true;
+  }
+  ending.trouble = stop_.trouble();
+  if (ending.hangs) return ending;
+  for (Thread& t : threads_) t.thread.join();
+  threads_.clear();
+  return ending;
+}
+
+void Robot::step() {
+  if (imu_) {
+    while (imu_->turn(stop_)) {
+    }
+  }
+  if (lidar_) {
+    while (lidar_->turn(stop_)) {
+    }
+  }
+  if (camera_ && ports_.watchers > 0) camera_->turn(stop_);
+  slam_stage_.turn();
+  if (clock_.now() >= control_.due()) control_.turn();
+}
+
+Counters Robot::counters() const {
+  Counters all = slam_.counters();
+  const auto add = [&all](const char* name, std::uint64_t n) {
+    if (n > 0) all.add(name, n);
+  };
+  add("queue.scans_dropped", slam_stage_.scans_dropped());
+  add("queue.imu_dropped", slam_stage_.imu_dropped());
+  add("queue.local_maps_dropped", slam_stage_.jobs_dropped());
+  for (const auto& [name, n] : control_.control().refused()) all.add(name, n);
+  return all;
+}
+
+}  // namespace dynslam

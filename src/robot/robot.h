@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "device/devices.h"
+#include "drive/drive_config.h"
+#include "robot/control_stage.h"
+#include "robot/ports.h"
+#include "robot/sensor_stage.h"
+#include "robot/slam_stage.h"
+#include "robot/stop_signal.h"
+
+namespace dynslam {
+
+struct RobotConfig {
+  SlamConfig slam;
+  DriveConfig drive;
+  LidarMount lidar_mount;
+};
+
+/// The whole robot: its devices, and the stages between them and the ports (design, section 6). Runs in one
+/// of two ways: with a thread a stage, or step by step in the caller's thread under a stepped clock,
+/// repeatable to the bit.
+class Robot {
+ public:
+  /// `clock` must outlive it.
+  Robot(Devices devices, const RobotConfig& config, const Clock& clock);
+  /// As stop().
+  ~Robot();
+  Robot(const Robot&) = delete;
+  Robot& operator=(const Robot&) = delete;
+
+  Ports& ports() { return ports_; }
+
+  /// Starts the threads.
+  void start();
+  /// Waits until one of the threads asks for a stop, or until `until`; returns whether one did.
+  bool wait(Clock::SteadyTime until) const { return stop_.wait(until); }
+  struct Ending {
+    std::string trouble;  ///< what went wrong; empty when nothing did
+    bool hangs = false;   ///< a thread hangs in a device: nothing is safe now but to end the program
+  };
+  /// Motors first, then everything else. No thread is waited for longer than `patience`.
+  Ending stop(std::chrono::milliseconds patience = std::chrono::milliseconds(600));
+
+  /// Instead of threads: works off all that is due by the clock.
+  void step();
+
+  /// Told of each scan, by the thread of SLAM.
+  void on_scan(SlamStage::Notice notice) { slam_stage_.on_scan(std::move(notice)); }
+  /// REQUIRES: not started, or stopped.
+  Slam& slam() { return slam_; }
+  const DriveControl& control() const { return control_.control(); }
+  Counters counters() const;
+
+ private:
+  void start_thread(const char* name, std::function<void()> turn);
+  void run_control();
+  void poll_camera();
+
+  Devices devices_;
+  const Clock& clock_;
+  Ports ports_;
+  StopSignal stop_;
+  Latest<ImuSample> newest_imu_;
+  Slam slam_;
+  SlamStage slam_stage_;
+  ControlStage control_;
+  std::optional<SensorStage<Scan>> lidar_;
+  std::optional<SensorStage<ImuSample>> imu_;
+  std::optional<SensorStage<JpegFrame>> camera_;
+  struct Thread {
+    std::thread thread;
+    std::future<void> ended;
+  };
+  std::vector<Thread> threads_;
+};
+
+}  // namespace dynslam

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "robot/slam_stage.h"
+
+#include <utility>
+
+namespace dynslam {
+namespace {
+
+/// So often is it looked whether the IMU has told of a scan's whole turn.
+constexpr Duration kMoment = std::chrono::milliseconds(10);
+constexpr Duration kGraphPatience = std::chrono::milliseconds(200);
+
+}  // namespace
+
+void SlamStage::turn() {
+  const auto scan = scans_.pop(clock_.steady(clock_.now() + kMoment));
+  while (auto sample = imu_.try_pop()) slam_.add(*sample);
+  if (scan) slam_.add(Scan(**scan));
+  while (auto correction = corrections_.try_pop()) slam_.correct(std::move(*correction));
+  while (const auto result = slam_.next()) {
+    while (auto job = slam_.take_job()) jobs_.push(std::move(*job));
+    show(*result);
+  }
+}
+
+void SlamStage::graph_turn() {
+  if (auto job = jobs_.pop(clock_.steady(clock_.now() + kGraphPatience)))
+    corrections_.push(slam_.work_off(*job));
+}
+
+void SlamStage::close() {
+  scans_.close();
+  jobs_.close();
+}
+
+void SlamStage::show(const ScanResult& r) {
+  ports_.world.put(
+      {{r.stamp, r.map_T_robot, r.covariance, r.quality, r.lost}, slam_.global_map().snapshot()});
+  if (notice_) notice_(r);
+}
+
+}  // namespace dynslam

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "base/imu_sample.h"
+#include "pipe/bounded_queue.h"
+#include "robot/ports.h"
+#include "slam/slam.h"
+
+namespace dynslam {
+
+/// Takes what the sensors said through SLAM, and tells where the robot is and what the map looks like. One
+/// thread; with a graph thread beside it, loops are closed there.
+class SlamStage {
+ public:
+  /// Told of each scan that was worked off.
+  using Notice = std::function<void(const ScanResult&)>;
+
+  SlamStage(Slam& slam, Ports& ports, const Clock& clock) : slam_(slam), ports_(ports), clock_(clock) {}
+
+  void add(ImuSample sample) { imu_.push(std::move(sample)); }
+  void add(std::shared_ptr<const Scan> scan) { scans_.push(std::move(scan)); }
+  void on_scan(Notice notice) { notice_ = std::move(notice); }
+
+  /// Waits a moment for a scan and works off what is ready.
+  void turn();
+  /// For the graph thread: waits a moment for a complete local map and closes its loops.
+  void graph_turn();
+  /// Nobody waits any more.
+  void close();
+
+  std::uint64_t scans_dropped() const { return scans_.dropped(); }
+  std::uint64_t imu_dropped() const { return imu_.dropped(); }
+  std::uint64_t jobs_dropped() const { return jobs_.dropped(); }
+
+ private:
+  void show(const ScanResult& result);
+
+  Slam& slam_;
+  Ports& ports_;
+  const Clock& clock_;
+  Notice notice_;
+  BoundedQueue<ImuSample> imu_{256};
+  BoundedQueue<std::shared_ptr<const Scan>> scans_{4};
+  BoundedQueue<GraphJob> jobs_{64};
+  /// Each says what changed since the one before: all are needed, in their order.
+  BoundedQueue<Correction> corrections_{64};
+};
+
+}  // namespace dynslam

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "robot/tour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dynslam {
+namespace {
+
+/// Turned away from a point by more than this, the robot turns on the spot.
+constexpr double kTurnFirst_rad = 0.5;
+constexpr double kTurnGain = 2.0;      ///< rad/s for each radian off
+constexpr double kSlowWithin_m = 0.6;  ///< of a point
+constexpr double kLeast_mps = 0.12;
+constexpr double kNearer_m = 0.05;
+
+}  // namespace
+
+Tour::Tour(std::vector<Vector2> points_map, const TourConfig& config)
+    : points_(std::move(points_map)), config_(config) {}
+
+Twist Tour::next(Time now, const PoseEstimate& pose, const Verdict& verdict) {
+  // A driver whose command was cut off lets go before he pushes again.
+  if (done() || pose.lost || verdict.motion >= Motion::kStop) return {};
+  const double away_m = (points_[at_] - pose.map_T_robot.translation()).norm();
+  if (away_m < config_.arrived_m) {
+    leave_point(true);
+    return done() ? Twist{} : next(now, pose, verdict);
+  }
+  if (!nearer_at_ || away_m < nearest_m_ - kNearer_m) {
+    nearest_m_ = away_m;
+    nearer_at_ = now;
+  } else if (now - *nearer_at_ > from_seconds(config_.blocked_skip_s)) {
+    leave_point(false);
+    return {};
+  }
+  return towards(points_[at_], pose.map_T_robot);
+}
+
+Twist Tour::towards(const Vector2& point, const Pose2& map_T_robot) const {
+  const Vector2 ahead = map_T_robot.inverse() * point;
+  const double off = std::atan2(ahead.y(), ahead.x());
+  const double turn = std::clamp(kTurnGain * off, -config_.turn_radps, config_.turn_radps);
+  if (std::abs(off) > kTurnFirst_rad) return {0.0, turn};
+  const double share = std::min(1.0, ahead.norm() / kSlowWithin_m);
+  return {std::max(kLeast_mps, config_.speed_mps * share * std::cos(off)), turn};
+}
+
+void Tour::leave_point(bool reached) {
+  ++at_;
+  ++(reached ? reached_ : skipped_);
+  nearer_at_.reset();
+}
+
+}  // namespace dynslam

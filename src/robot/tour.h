@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/drive_command.h"
+#include "base/pose_estimate.h"
+#include "base/verdict.h"
+
+namespace dynslam {
+
+struct TourConfig {
+  double speed_mps = 0.5;
+  double turn_radps = 1.2;
+  double arrived_m = 0.2;        ///< this near to a point it is reached
+  double blocked_skip_s = 12.0;  ///< a point that cannot be neared for so long is left out
+};
+
+/// Drives from point to point as a person would who sees the map: by commands, through everything that guards
+/// a person's commands. Pure; one thread.
+class Tour {
+ public:
+  explicit Tour(std::vector<Vector2> points_map, const TourConfig& config = {});
+
+  /// What to command now, where the robot believes to be `pose`, the newest one.
+  Twist next(Time now, const PoseEstimate& pose, const Verdict& verdict);
+
+  bool done() const { return at_ >= points_.size(); }
+  std::size_t reached() const { return reached_; }
+  std::size_t skipped() const { return skipped_; }
+
+ private:
+  Twist towards(const Vector2& point, const Pose2& map_T_robot) const;
+  void leave_point(bool reached);
+
+  std::vector<Vector2> points_;
+  TourConfig config_;
+  std::size_t at_ = 0, reached_ = 0, skipped_ = 0;
+  double nearest_m_ = 0.0;
+  std::optional<Time> nearer_at_;  ///< when it came nearer to the point last
+};
+
+}  // namespace dynslam
