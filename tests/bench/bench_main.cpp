@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The benchmarks of what costs: drawing scans, matching them, work on whole maps, and whole recordings.
+// The benchmarks of what costs: drawing scans, matching them, work on whole maps, whole recordings, and ticks
+// of driving.
 //
 //   cmake --preset release && cmake --build --preset release --target dynslam_bench
 //   build/release/tests/bench/dynslam_bench
@@ -80,6 +81,7 @@ int run(int argc, char** argv) {
   register_replay_benchmarks();
   register_back_end_benchmarks();
   register_map_benchmarks();
+  register_drive_benchmarks();
   have_had_a_thread();
   KeepingReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

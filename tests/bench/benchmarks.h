@@ -9,5 +9,6 @@ void register_match_benchmarks();
 void register_map_benchmarks();
 void register_replay_benchmarks();
 void register_back_end_benchmarks();
+void register_drive_benchmarks();
 
 }  // namespace dynslam::bench
