@@ -7,6 +7,12 @@
 #include "drive/words.h"
 
 namespace dynslam {
+namespace {
+
+/// The robot speeds up again after each new scan, and is slowed down again: shown as one.
+constexpr Duration kSlowedShown = std::chrono::milliseconds(300);
+
+}  // namespace
 
 Safety::Safety(const SafetyConfig& config, const BodyConfig& body, const ClearanceConfig& clearance)
     : config_(config),
@@ -25,6 +31,7 @@ Finding Safety::clock(Time now) {
   scans_.clock_went_back();
   imu_.clock_went_back();
   motion_ = {};
+  slowed_ = {};
   clearance_.forget();
   seen_.reset();
   return {Cause::kClock, {Motion::kStop, "the clock ran backwards"}};
@@ -50,7 +57,7 @@ Decision Safety::decide(Time now, const SafetyInputs& in) {
     clearance_.see(*seen_, motion_);
   }
   const ClearWay way = clearance_.way(now, in.twist, motion_);
-  weigh(obstacle(way, in.twist));
+  weigh(obstacle(now, way, in.twist));
   weigh(imu);
   weigh(battery(in));
   const bool held = worst.verdict.motion >= Motion::kHold;
@@ -58,11 +65,19 @@ Decision Safety::decide(Time now, const SafetyInputs& in) {
   return decision;
 }
 
-Finding Safety::obstacle(const ClearWay& way, const Twist& twist) const {
-  if (way.share >= 1.0) return {};
+Finding Safety::obstacle(Time now, const ClearWay& way, const Twist& twist) {
+  if (way.share >= 1.0) {
+    const bool lately = slowed_.cause == Cause::kObstacle && now - slowed_at_ < kSlowedShown;
+    return lately && is_moving(twist) ? slowed_ : Finding{};
+  }
   const char* where = twist.v_mps > 0.0 ? " ahead" : twist.v_mps < 0.0 ? " behind" : " beside";
   const Motion motion = way.share > 0.0 ? Motion::kSlow : Motion::kHold;
-  return {Cause::kObstacle, {motion, "obstacle " + fixed_text(way.distance_m, 2) + " m" + where}};
+  const Finding row{Cause::kObstacle, {motion, "obstacle " + fixed_text(way.distance_m, 2) + " m" + where}};
+  if (motion == Motion::kSlow) {
+    slowed_ = row;
+    slowed_at_ = now;
+  }
+  return row;
 }
 
 Finding Safety::battery(const SafetyInputs& in) const {

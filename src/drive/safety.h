@@ -47,7 +47,7 @@ class Safety {
 
  private:
   Finding clock(Time now);
-  Finding obstacle(const ClearWay& way, const Twist& twist) const;
+  Finding obstacle(Time now, const ClearWay& way, const Twist& twist);
   Finding battery(const SafetyInputs& in) const;
   double careful_share(const SafetyInputs& in) const;
 
@@ -60,6 +60,8 @@ class Safety {
   Clearance clearance_;
   RecentMotion motion_;
   std::shared_ptr<const Scan> seen_;  ///< the scan that clearance_ goes by
+  Finding slowed_;                    ///< the last time an obstacle slowed the robot down
+  Time slowed_at_;
   std::optional<Time> now_;
   Twist twist_;
   WheelPower power_;

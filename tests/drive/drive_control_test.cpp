@@ -208,6 +208,17 @@ TEST(DriveControl, SlowsDownForAWall) {
   EXPECT_NEAR(out.applied.w_radps, 0.2 * out.applied.v_mps, 1e-6) << "on the same arc";
 }
 
+TEST(DriveControl, SlowingDownIsOneTransitionThoughEachScanGivesALittleWay) {
+  Drive d;
+  d.world = wall_at(0.8);  // which keeps away
+  d.run(0.7, kStand);
+  const std::size_t before = d.control.transitions().size();
+  EXPECT_EQ(d.run(3, {1.5, 0.2}).verdict.motion, Motion::kSlow);
+  EXPECT_EQ(d.control.transitions().size(), before + 1);
+  d.run(1, kStand);
+  EXPECT_EQ(d.control.transitions().back().verdict, (Verdict{Motion::kGo, ""}));
+}
+
 TEST(DriveControl, ListsTransitionsOnceEach) {
   Drive d;
   d.run(1.0, kStand);
