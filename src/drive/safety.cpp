@@ -52,7 +52,7 @@ Decision Safety::decide(Time now, const SafetyInputs& in) {
   weigh(scans_.update(now, in.scan));
   if (in.driver_missing) weigh({Cause::kDriver, {Motion::kStop, *in.driver_missing}});
 
-  if (scans_.good() != seen_) {
+  if (scans_.good() && scans_.good() != seen_) {
     seen_ = scans_.good();
     clearance_.see(*seen_, motion_);
   }

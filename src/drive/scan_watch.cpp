@@ -57,7 +57,7 @@ ScanWatch::Trouble ScanWatch::take(Time now, const std::shared_ptr<const Scan>& 
 
 Finding ScanWatch::update(Time now, const std::shared_ptr<const Scan>& newest) {
   if (newest && newest != newest_) trouble_ = take(now, newest);
-  if (good_ && now - good_end_ <= timeout_) return {};
+  if (good_ && is_fresh(good_end_, now, timeout_)) return {};
   std::string words;
   switch (trouble_) {
     case Trouble::kNone:

@@ -206,7 +206,7 @@ TEST(Clearance, DoesNotCountOnAMotionThatMayNotHaveBegun) {
 /// While it turned by 90 degrees in a scan of 0.1 s, each beam saw the world from another heading.
 TEST(Clearance, TakesEachBeamAtItsOwnTime) {
   const double turn_radps = kPi / 2 / 0.1;
-  const DrawnWorld post{{}, {{0.0, 0.5, 0.05}}};  // to the left at first, ahead at the end
+  const DrawnWorld post{{}, {{0.0, 1.0, 0.05}}};  // to the left at first, ahead at the end
   RecentMotion motion;
   motion.add(Time(), {0, turn_radps}, {});
   Scan scan;
@@ -218,8 +218,9 @@ TEST(Clearance, TakesEachBeamAtItsOwnTime) {
   }
   Clearance c;
   c.see(scan, motion);
-  EXPECT_LT(c.way(end_of(scan), kAhead, motion).share, 1.0);
-  EXPECT_NEAR(c.way(end_of(scan), kAhead, motion).distance_m, 0.31, 0.03);
+  const ClearWay way = c.way(end_of(scan), {2, 0}, motion);
+  EXPECT_NEAR(way.share, share_in({{}, {{1.0, 0.0, 0.05}}}, {2, 0}), 0.01);
+  EXPECT_NEAR(way.distance_m, 0.81, 0.01);
 }
 
 /// A robot that obeys: whatever speed it has, it never comes nearer to the wall than its margin.

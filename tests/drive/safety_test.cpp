@@ -75,6 +75,11 @@ void estop_bounces_while_cleared(SafetyInputs& in, int ms) {
   in.pins->value.estop_pressed = ms % 50 == 0;
   in.clear_asked = true;
 }
+void estop_pressed_in_the_future(SafetyInputs& in, int) { in.pins = {event_ms(60'000), {true}}; }
+void estop_tapped_then_silent(SafetyInputs& in, int ms) {
+  in.pins = {event_ms(std::min(ms, 100)), {ms < 50}};
+  in.clear_asked = ms > 700;
+}
 void pins_frozen(SafetyInputs& in, int) { in.pins->stamp = event_ms(0); }
 void pins_gone(SafetyInputs& in, int ms) {
   if (ms > 0) in.pins.reset();
@@ -207,6 +212,8 @@ const Row kRows[] = {
     {"released 49", estop_tapped_and_cleared, 149, kEStop, Cause::kEStopPin, "clear the stop"},
     {"released 50", estop_tapped_and_cleared, 150, kGo, Cause::kNone, ""},
     {"bounces", estop_bounces_while_cleared, 1040, kEStop, Cause::kEStopPin, "clear the stop"},
+    {"pressed, nonsense stamp", estop_pressed_in_the_future, 500, kEStop, Cause::kEStopPin, "e-stop pressed"},
+    {"cleared unseen", estop_tapped_then_silent, 800, kEStop, Cause::kEStopPin, "clear the stop"},
     {"pins 500", pins_frozen, 500, kGo, Cause::kNone, ""},
     {"pins 501", pins_frozen, 501, kStop, Cause::kPinsSilent, "e-stop not read for 0.5 s"},
     {"pins gone", pins_gone, 600, kStop, Cause::kPinsSilent, "e-stop not read for 0.6 s"},
@@ -381,16 +388,29 @@ TEST(Safety, AClockThatRunsBackwardsStopsAndFreesNothing) {
   EXPECT_EQ(tilted.step(910, {}).worst.cause, Cause::kTilt) << "until it has been upright for a while";
 }
 
-TEST(Safety, AnOldWorldIsOfNoUseAfterTheClockRanBackwards) {
-  Bench bench;
-  const auto stale = [](SafetyInputs& in, int) {
-    in.scan = std::make_shared<Scan>(scan_of({}, event_ms(-10), 100));  // of the time before
-    in.motors->stamp = in.pins->stamp = in.imu->stamp = event_ms(-10);
+/// One device alone goes on giving what it gave before the clock ran backwards, and is from the future now.
+TEST(Safety, AnOldValueIsOfNoUseAfterTheClockRanBackwards) {
+  struct Case {
+    void (*stale)(SafetyInputs&, int);
+    Motion motion;
+    Cause cause;
   };
-  for (int ms = 0; ms < 600; ms += 10) {
-    const Decision d = bench.step(ms, stale);
-    EXPECT_EQ(d.worst.verdict.motion, kStop) << ms;
-    EXPECT_EQ(d.share, 0.0);
+  const Case cases[] = {
+      {[](SafetyInputs& in, int) { in.motors->stamp = event_ms(-10); }, kStop, Cause::kMotorsSilent},
+      {[](SafetyInputs& in, int) { in.pins->stamp = event_ms(-10); }, kStop, Cause::kPinsSilent},
+      {[](SafetyInputs& in, int) { in.scan = std::make_shared<Scan>(scan_of({}, event_ms(-10), 100)); },
+       kStop, Cause::kScan},
+      {[](SafetyInputs& in, int) { in.scan.reset(); }, kStop, Cause::kScan},
+      {[](SafetyInputs& in, int) { in.imu->stamp = event_ms(-10); }, kSlow, Cause::kImu},
+      {[](SafetyInputs& in, int) { in.imu.reset(); }, kSlow, Cause::kImu}};
+  for (const Case& c : cases) {
+    Bench bench;
+    bench.step(0, c.stale);
+    for (int ms = 10; ms < 900; ms += 10) {
+      const Decision d = bench.step(ms, c.stale);
+      EXPECT_EQ(d.worst.verdict.motion, c.motion) << ms;
+      EXPECT_EQ(d.worst.cause, c.cause) << ms << " " << d.worst.verdict.reason;
+    }
   }
 }
 
