@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "sim/life.h"
+
+#include <algorithm>
+
+#include "sim/robot_shape.h"
+
+namespace dynslam {
+namespace {
+
+constexpr std::uint64_t kActorSteps = 5;  // people and doors move every 10 ms
+
+double by_255ths(double power) { return std::round(std::clamp(power, -1.0, 1.0) * 255.0) / 255.0; }
+
+}  // namespace
+
+Life::Life(const World& world, Time begin, std::uint64_t seed)
+    : world_(world),
+      begin_(begin),
+      now_(begin),
+      actors_(world),
+      caster_(fixed_surfaces(world), Actors::reach(world)),
+      body_(world, seed),
+      blocked_([this](const Pose2& p) { return is_blocked(p); }),
+      lidar_(begin, seed),
+      imu_(begin, seed),
+      last_view_(begin),
+      heard_(begin - kFailsafe) {
+  recent_.fill(body_.pose());
+  caster_.set_moving(actors_.surfaces());
+  note_truth();
+}
+
+void Life::command(const WheelPower& power, Time heard) {
+  wanted_ = {by_255ths(power.left), by_255ths(power.right)};
+  heard_ = heard;
+}
+
+bool Life::is_blocked(const Pose2& world_T_robot) const {
+  constexpr double kReach_m = 0.17;  // from the robot's middle to its corners
+  return caster_.any_near(world_T_robot.translation(), kReach_m,
+                          [&](const Surface& s) { return robot_touches(world_T_robot, s); });
+}
+
+bool Life::place(const Pose2& world_T_robot) {
+  const Vector2 p = world_T_robot.translation();
+  const bool is_within =
+      (p.array() >= caster_.low_corner().array()).all() && (p.array() <= caster_.high_corner().array()).all();
+  if (!is_within || is_blocked(world_T_robot)) return false;
+  for (const Furniture& thing : world_.furniture) {
+    for (const Part& part : thing.parts) {
+      if (part.low_m < kRobotHigh_m && is_inside(p, part, thing.world_T_thing)) return false;
+    }
+  }
+  body_.place(world_T_robot);
+  recent_.fill(body_.pose());
+  return true;
+}
+
+void Life::move_actors() {
+  if (steps_ % kActorSteps != 0) return;
+  const Duration length = kActorSteps * kStep;
+  if (actors_.step(to_seconds(now_ - begin_), to_seconds(length), body_.pose().world_T_robot)) {
+    caster_.set_moving(actors_.surfaces());
+  }
+}
+
+void Life::note_truth() {
+  truth_.push_back({now_, body_.pose().world_T_robot});
+  if (truth_.back().stamp - truth_.front().stamp > kTruthKept) truth_.pop_front();
+}
+
+void Life::step() {
+  move_actors();
+  body_.set_power(now_ - heard_ < kFailsafe ? wanted_ : WheelPower{});
+  const BodyPose before = body_.pose();
+  body_.step(to_seconds(kStep), blocked_);
+  lidar_.step(kStep, before, body_.pose(), caster_, scans);
+  now_ += kStep;
+  ++steps_;
+  recent_[steps_ % recent_.size()] = body_.pose();
+  if ((now_ - begin_) % ImuModel::kPeriod == Duration::zero()) {
+    constexpr auto kLagSteps = static_cast<std::uint64_t>(ImuModel::kLag / kStep);
+    imu_.measure(now_, recent_[(steps_ + recent_.size() - kLagSteps) % recent_.size()], imu);
+    note_truth();
+  }
+  if (now_ - last_view_ >= kViewPeriod) {
+    views.put(now_, {now_, body_.pose(), caster_.moving()});
+    last_view_ = now_;
+  }
+}
+
+}  // namespace dynslam

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <deque>
+#include <vector>
+
+#include "sim/actors.h"
+#include "sim/imu_model.h"
+#include "sim/lidar_model.h"
+#include "sim/ray_caster.h"
+#include "sim/robot_body.h"
+
+namespace dynslam {
+
+/// What the camera needs to draw a moment.
+struct CameraView {
+  Time stamp;
+  BodyPose pose;
+  std::vector<Surface> moving;
+};
+
+/// Where the robot truly was.
+struct TruePose {
+  Time stamp;
+  Pose2 world_T_robot;
+};
+
+/// The world and the robot in it, in steps of fixed length, so that what happens does not depend on who asks
+/// how often. Sensors measure as time goes by and leave their samples in outboxes. No clock, one thread.
+class Life {
+ public:
+  Life(const World& world, Time begin, std::uint64_t seed);
+  Life(const Life&) = delete;
+  Life& operator=(const Life&) = delete;
+
+  Time now() const { return now_; }
+  void step();
+  static constexpr Duration kStep = std::chrono::milliseconds(2);
+
+  /// What the motor board was told, and when. It stops the motors by itself when it hears nothing for
+  /// kFailsafe.
+  void command(const WheelPower& power, Time heard);
+  static constexpr Duration kFailsafe = std::chrono::milliseconds(250);
+
+  /// Puts the robot down elsewhere; false, and nothing happens, where something stands.
+  bool place(const Pose2& world_T_robot);
+  RobotBody& body() { return body_; }
+  const RobotBody& body() const { return body_; }
+  /// 100 a second, the last of them kTruthKept old at most, oldest first.
+  const std::deque<TruePose>& truth() const { return truth_; }
+  static constexpr Duration kTruthKept = std::chrono::minutes(20);
+
+  Time next_scan_due() const { return scans.next_due().value_or(lidar_.next_due()); }
+  Time next_imu_due() const { return imu.next_due().value_or(imu_.next_due()); }
+  Time next_view_due() const { return views.next_due().value_or(last_view_ + kViewPeriod); }
+
+  Outbox<Scan> scans{8};
+  Outbox<ImuSample> imu{64};
+  Outbox<CameraView> views{1};
+
+  static constexpr Duration kViewPeriod = std::chrono::milliseconds(50);
+
+ private:
+  bool is_blocked(const Pose2& world_T_robot) const;
+  void move_actors();
+  void note_truth();
+
+  World world_;
+  Time begin_, now_;
+  std::uint64_t steps_ = 0;
+  Actors actors_;
+  RayCaster caster_;
+  RobotBody body_;
+  RobotBody::Blocked blocked_;
+  LidarModel lidar_;
+  ImuModel imu_;
+  std::array<BodyPose, 4> recent_;  ///< by steps: where the robot was
+  std::deque<TruePose> truth_;
+  Time last_view_;
+  WheelPower wanted_;
+  Time heard_;
+};
+
+}  // namespace dynslam
