@@ -12,6 +12,7 @@
 #include "base/config_field.h"
 #include "base/error.h"
 #include "base/scan.h"
+#include "drive/drive_config.h"
 #include "slam/slam_config.h"
 
 namespace dynslam {
@@ -41,12 +42,14 @@ struct LidarConfig {
 struct Config {
   LidarConfig lidar;
   SlamConfig slam;
+  DriveConfig drive;
 
   /// Calls `visit(name of the table, struct with fields)` for each table.
   template <class Self, class Visit>
   static void sections(Self& self, Visit&& visit) {
     visit(std::string_view("lidar"), self.lidar);
     visit(std::string_view("slam"), self.slam);
+    DriveConfig::sections(self.drive, visit);
   }
 };
 

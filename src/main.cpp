@@ -14,6 +14,7 @@
 #include "config.h"
 #include "replay_command.h"
 #include "robot/steady_memory.h"
+#include "sim_command.h"
 
 namespace {
 
@@ -53,6 +54,25 @@ int run(int argc, char** argv) {
   replay->add_flag("--quiet", options.quiet, "no progress and no summary");
   common.add_to(*replay, "--config");
 
+  dynslam::SimOptions sim_options;
+  CLI::App* sim = app.add_subcommand("sim", "the whole robot, only its hardware is simulated");
+  sim->add_option("--world", sim_options.world,
+                  "a world that comes with dynslam (apartment, office, clutter, warehouse, empty), or a file")
+      ->type_name("NAME|FILE")
+      ->capture_default_str();
+  sim->add_option("--speed", sim_options.speed,
+                  "times as fast as life; 0: step by step, as fast as it goes, the same every time")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  sim->add_option("--seed", sim_options.seed, "of the noise of everything")->capture_default_str();
+  sim->add_option("--out", sim_options.out, "folder for map, trajectory, truth and report")->type_name("DIR");
+  sim->add_flag("--headless", sim_options.headless, "nobody looks on");
+  sim->add_option("--duration", sim_options.duration_s, "most of simulated time, in seconds")
+      ->type_name("S")
+      ->check(CLI::Range(0.1, 1e6));
+  sim->add_option("--mission", sim_options.mission, "what to do: tour")->capture_default_str();
+  common.add_to(*sim, "--config");
+
   CLI::App* check = app.add_subcommand(
       "check-config", "read a configuration file and print all settings as they are in force");
   common.add_to(*check, "file");
@@ -69,6 +89,7 @@ int run(int argc, char** argv) {
     std::fputs(config_reference(common.load()).c_str(), stdout);
     return 0;
   }
+  if (sim->parsed()) return dynslam::run_sim(sim_options, common.load());
   return dynslam::run_replay(options, common.load());
 }
 

@@ -15,7 +15,8 @@ struct KinematicsConfig {
   double max_turn_radps = 3.0;
   double track_width_m = 0.2;
   double turn_slip = 1.5;
-  double deadband = 0.06;
+  double deadband = 0.08;
+  double turn_deadband = 0.08;
   double motor_rated_v = 12.0;
   double max_power = 0.95;
   double acceleration_mps2 = 1.0;
@@ -34,6 +35,8 @@ struct KinematicsConfig {
           self.turn_slip);
     visit(Field{"deadband", "share of the rated voltage under which the wheels do not turn", 0.0, 0.5},
           self.deadband);
+    visit(Field{"turn_deadband", "and so much more for turning on the spot, where all wheels skid", 0.0, 0.5},
+          self.turn_deadband);
     visit(Field{"motor_rated_v", "what the motors get at most", 3.0, 36.0}, self.motor_rated_v);
     visit(Field{"max_power", "largest share of the battery's voltage; the computer needs the rest", 0.1, 1.0},
           self.max_power);
@@ -46,9 +49,10 @@ struct KinematicsConfig {
   }
 };
 
-/// Between twists and the power of the wheels of a skid-steer robot. The speed of a wheel goes with the share
-/// of the rated voltage that its motor gets, less a deadband; the power is that voltage as a share of the
-/// battery's. A battery of unknown voltage is taken for a freshly charged one. All pure.
+/// From twists to the power of the wheels of a skid-steer robot. The speed of a wheel goes with the share of
+/// the rated voltage that its motor gets, less a deadband that grows as the two sides differ and skid; the
+/// power is that voltage as a share of the battery's. A battery of unknown voltage is taken for a freshly
+/// charged one. All pure.
 class Kinematics {
  public:
   explicit Kinematics(const KinematicsConfig& config = {}) : config_(config) {}
@@ -58,16 +62,17 @@ class Kinematics {
   /// What drives the robot like this; on the same arc but slower where the motors would get too much.
   /// Standing still is exactly zero, and so is what is not a number.
   WheelPower power(const Twist& twist, std::optional<double> battery_v) const;
-  /// How the robot drives with such a power; the inverse of power().
-  Twist twist(const WheelPower& power, std::optional<double> battery_v) const;
   /// The most power a motor gets: not more than its rated voltage, nor than max_power.
   double most_power(std::optional<double> battery_v) const;
 
  private:
+  struct WheelSpeeds {
+    double left = 0.0, right = 0.0;  ///< m/s
+  };
+  WheelSpeeds speeds(const Twist& twist) const;
+  double friction(const WheelSpeeds& speeds) const;
   double supply_v(std::optional<double> battery_v) const;
-  double fastest_mps(double supply_v) const;
-  double power_of_wheel(double speed_mps, double supply_v) const;
-  double speed_of_wheel(double power, double supply_v) const;
+  double power_of_wheel(double speed_mps, double friction, double supply_v) const;
   double half_track_m() const { return 0.5 * config_.track_width_m * config_.turn_slip; }
 
   KinematicsConfig config_;

@@ -57,7 +57,7 @@ void Robot::start() {
 void Robot::start_thread(const char* name, std::function<void()> turn) {
   std::promise<void> ended;
   std::future<void> end = ended.get_future();
-  const auto run = [this, name, turn = std::move(turn), ended = std::move(ended)]() mutable {
+  auto run = [this, name, turn = std::move(turn), ended = std::move(ended)]() mutable {
     try {
       while (!stop_.requested()) turn();
     } catch (const std::exception& e) {
@@ -115,6 +115,8 @@ void Robot::step() {
   slam_stage_.turn();
   if (clock_.now() >= control_.due()) control_.turn();
 }
+
+void Robot::finish() { slam_stage_.finish(); }
 
 Counters Robot::counters() const {
   Counters all = slam_.counters();

@@ -55,7 +55,9 @@ class Robot {
 
   /// Told of each scan, by the thread of SLAM.
   void on_scan(SlamStage::Notice notice) { slam_stage_.on_scan(std::move(notice)); }
-  /// REQUIRES: not started, or stopped.
+  /// Takes in what is under way and draws the map for the last time. REQUIRES (these two): not started, or
+  /// stopped.
+  void finish();
   Slam& slam() { return slam_; }
   const DriveControl& control() const { return control_.control(); }
   Counters counters() const;

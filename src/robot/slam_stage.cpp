@@ -33,6 +33,12 @@ void SlamStage::close() {
   jobs_.close();
 }
 
+void SlamStage::finish() {
+  turn();
+  while (const auto job = jobs_.try_pop()) slam_.correct(slam_.work_off(*job));
+  slam_.finish();
+}
+
 void SlamStage::show(const ScanResult& r) {
   ports_.world.put(
       {{r.stamp, r.map_T_robot, r.covariance, r.quality, r.lost}, slam_.global_map().snapshot()});

@@ -31,6 +31,8 @@ class SlamStage {
   void graph_turn();
   /// Nobody waits any more.
   void close();
+  /// Works off what is under way. REQUIRES: no other thread is in here.
+  void finish();
 
   std::uint64_t scans_dropped() const { return scans_.dropped(); }
   std::uint64_t imu_dropped() const { return imu_.dropped(); }

@@ -34,7 +34,7 @@ void replay_whole(benchmark::State& state, const ScanSource& source, double cell
   SlamConfig config;
   config.cell_size_m = cell_size_m;
   config.close_loops = false;  // cells are compared with what scans touched
-  ReplayResult result;
+  MappingResult result;
   for (auto _ : state) {
     const auto recording = open_source(source);
     result = replay(*recording, config, [](double, std::uint64_t) {});

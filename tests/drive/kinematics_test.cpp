@@ -53,18 +53,43 @@ TEST(Kinematics, ALowerBatteryTakesALargerShareForTheSameSpeed) {
   EXPECT_NEAR(high * 13.0, low * 11.0, 1e-9);
 }
 
-TEST(Kinematics, PowerAndTwistAreInverses) {
+/// What a wheel does with its power, where turning on the spot (1) or straight on (0) takes more or less.
+double wheel_speed(double power, double battery_v, double turning) {
+  const KinematicsConfig c;
+  const double voltage = std::abs(power) * battery_v / c.motor_rated_v;
+  const double pushing = std::max(0.0, voltage - c.deadband - c.turn_deadband * turning);
+  return std::copysign(pushing / (1.0 - c.deadband) * c.max_speed_mps, power);
+}
+
+/// The twist that a power drives, when it is meant to drive `wanted`.
+Twist driven(const WheelPower& power, double battery_v, const Twist& wanted) {
+  const KinematicsConfig c;
+  const double half = 0.5 * c.track_width_m * c.turn_slip, turn = std::abs(wanted.w_radps) * half;
+  const double turning = turn / std::max(turn, std::abs(wanted.v_mps));
+  const double left = wheel_speed(power.left, battery_v, turning),
+               right = wheel_speed(power.right, battery_v, turning);
+  return {0.5 * (left + right), 0.5 * (right - left) / half};
+}
+
+TEST(Kinematics, DrivesWhatWasAskedFor) {
   const Kinematics k;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> v(-1.2, 1.2), w(-3, 3), volts(10.5, 14);
   for (int i = 0; i < 1000; ++i) {
     const Twist wanted{v(random), w(random)};
     const double battery = volts(random);
-    const Twist t = k.twist(k.power(wanted, battery), battery);
+    const Twist t = driven(k.power(wanted, battery), battery, wanted);
     // A wheel that is asked for next to nothing stands.
     EXPECT_NEAR(t.v_mps, wanted.v_mps, 0.003);
     EXPECT_NEAR(t.w_radps, wanted.w_radps, 0.02);
   }
+}
+
+TEST(Kinematics, TurningOnTheSpotTakesMoreThanDrivingStraight) {
+  const Kinematics k;
+  const double half_track_m = 0.5 * 0.2 * 1.5;
+  EXPECT_NEAR(k.power({0, 0.3 / half_track_m}, 12.0).right - k.power({0.3, 0}, 12.0).right, 0.08, 1e-9)
+      << "for the same speed of the wheels";
 }
 
 TEST(Kinematics, KeepsTheArcWhenAWheelSaturates) {
@@ -73,9 +98,9 @@ TEST(Kinematics, KeepsTheArcWhenAWheelSaturates) {
     const Twist t = k.reachable(wanted, 12.0);
     EXPECT_LT(std::abs(t.v_mps), std::abs(wanted.v_mps));
     EXPECT_NEAR(t.v_mps * wanted.w_radps, t.w_radps * wanted.v_mps, 1e-9);
-    const Twist driven = k.twist(k.power(wanted, 12.0), 12.0);
-    EXPECT_NEAR(driven.v_mps, t.v_mps, 1e-9);
-    EXPECT_NEAR(driven.w_radps, t.w_radps, 1e-9);
+    const Twist done = driven(k.power(wanted, 12.0), 12.0, t);
+    EXPECT_NEAR(done.v_mps, t.v_mps, 1e-9);
+    EXPECT_NEAR(done.w_radps, t.w_radps, 1e-9);
   }
   EXPECT_EQ(k.reachable({1, 0.5}, 12.0), (Twist{1, 0.5}));
 }

@@ -29,13 +29,13 @@ std::string short_log() {
   return text.str();
 }
 
-ReplayResult replay_text(const std::string& text) {
+MappingResult replay_text(const std::string& text) {
   const auto recording = open_recording(std::make_unique<MemorySource>(text, "short.log"), RecordingConfig{});
   return replay(*recording, {}, [](double, std::uint64_t) {});
 }
 
 TEST(Replay, MapsARecording) {
-  const ReplayResult result = replay_text(short_log());
+  const MappingResult result = replay_text(short_log());
   ASSERT_EQ(result.trajectory.size(), 30U);
   EXPECT_EQ(result.inserted, 30U);
   EXPECT_THAT(result.trajectory.back().map_T_robot, PoseNear(Pose2{1.45, 0, 0.58}, 0.02, 0.01));
@@ -47,13 +47,13 @@ TEST(Replay, MapsARecording) {
 }
 
 TEST(Replay, IsTheSameTwice) {
-  const ReplayResult a = replay_text(short_log()), b = replay_text(short_log());
+  const MappingResult a = replay_text(short_log()), b = replay_text(short_log());
   EXPECT_EQ(to_tum(a.trajectory), to_tum(b.trajectory));
   EXPECT_EQ(trinary_map(a.map).cells, trinary_map(b.map).cells);
 }
 
 TEST(Replay, OfNoScansIsEmpty) {
-  const ReplayResult result = replay_text("PARAM laser_front_laser_fov 3.14159 0 radish 0\n");
+  const MappingResult result = replay_text("PARAM laser_front_laser_fov 3.14159 0 radish 0\n");
   EXPECT_TRUE(result.trajectory.empty());
   EXPECT_EQ(result.map.chunk_count(), 0U);
 }

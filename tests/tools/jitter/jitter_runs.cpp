@@ -18,7 +18,7 @@ CopyResult run_copy(const OpenRecording& open, const std::vector<StampedPose>& r
                     const JitterPlan& plan, std::optional<std::uint64_t> seed) {
   std::unique_ptr<Recording> recording = open();
   if (seed) recording = std::make_unique<JitteredRecording>(std::move(recording), plan.jitter, *seed);
-  ReplayResult replayed = replay(*recording, plan.slam, [](double, std::uint64_t) {});
+  MappingResult replayed = replay(*recording, plan.slam, [](double, std::uint64_t) {});
   if (recording->damage()) throw InputError(*recording->damage());
   if (replayed.inserted == 0) throw InputError("the recording holds no usable scan of a lidar");
   const double final_m = absolute_error_m(replayed.trajectory, reference);
