@@ -7,6 +7,7 @@ void register_memory_benchmarks();
 void register_clear_benchmarks();
 void register_match_benchmarks();
 void register_map_benchmarks();
+void register_cast_benchmarks();
 void register_replay_benchmarks();
 void register_back_end_benchmarks();
 void register_drive_benchmarks();

@@ -90,6 +90,16 @@ void print_map_work(const RunTable& runs) {
   }
 }
 
+void print_casting(const RunTable& runs) {
+  std::printf("\ncasting a turn of 1200 beams in the simulator\n  %-24s %9s %12s %7s\n", "", "us",
+              "plainly us", "ratio");
+  for (const std::string& name : runs.cases_of("cast_fast")) {
+    const double fast = runs.value("cast_fast/" + name, "s/scan"),
+                 plain = runs.value("cast_plainly/" + name, "s/scan");
+    std::printf("  %-24s %9.1f %12.1f %7.1f\n", name.c_str(), fast / kMicro, plain / kMicro, plain / fast);
+  }
+}
+
 void print_memory(const RunTable& runs) {
   std::printf(
       "\nmap of a whole recording; the ratio is its bytes to two bytes for each cell it knows (at most 1.5 "
@@ -145,6 +155,7 @@ void print_summary(const RunTable& runs) {
   if (!runs.cases_of("match_narrow").empty()) print_matching(runs);
   if (!runs.cases_of("replay").empty()) print_memory(runs);
   if (const auto growth = growth_of(runs); !growth.empty()) print_growth(growth);
+  if (!runs.cases_of("cast_fast").empty()) print_casting(runs);
   print_snapshots(runs);
   print_map_work(runs);
 }
