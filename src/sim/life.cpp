@@ -2,6 +2,8 @@
 #include "sim/life.h"
 
 #include <algorithm>
+#include <limits>
+#include <set>
 
 #include "sim/robot_shape.h"
 
@@ -15,8 +17,7 @@ double by_255ths(double power) { return std::round(std::clamp(power, -1.0, 1.0) 
 }  // namespace
 
 Life::Life(const World& world, Time begin, std::uint64_t seed)
-    : world_(world),
-      begin_(begin),
+    : begin_(begin),
       now_(begin),
       actors_(world),
       caster_(fixed_surfaces(world), Actors::reach(world)),
@@ -42,16 +43,25 @@ bool Life::is_blocked(const Pose2& world_T_robot) const {
                           [&](const Surface& s) { return robot_touches(world_T_robot, s); });
 }
 
+/// A ray from within a part leaves it without having entered.
+bool Life::is_in_something(const Vector2& p) const {
+  SpaceRay ray;
+  ray.from = p;
+  std::vector<RayHit> hits;
+  caster_.cast_through(ray, std::numeric_limits<double>::infinity(), hits);
+  std::set<int> entered;
+  return std::any_of(hits.begin(), hits.end(), [&](const RayHit& hit) {
+    if (hit.surface->low_m >= kRobotHigh_m || hit.surface->high_m <= kRobotLow_m) return false;
+    if (hit.enters) entered.insert(hit.surface->part);
+    return !hit.enters && !entered.contains(hit.surface->part);
+  });
+}
+
 bool Life::place(const Pose2& world_T_robot) {
   const Vector2 p = world_T_robot.translation();
   const bool is_within =
       (p.array() >= caster_.low_corner().array()).all() && (p.array() <= caster_.high_corner().array()).all();
-  if (!is_within || is_blocked(world_T_robot)) return false;
-  for (const Furniture& thing : world_.furniture) {
-    for (const Part& part : thing.parts) {
-      if (part.low_m < kRobotHigh_m && is_inside(p, part, thing.world_T_thing)) return false;
-    }
-  }
+  if (!is_within || is_blocked(world_T_robot) || is_in_something(p)) return false;
   body_.place(world_T_robot);
   recent_.fill(body_.pose());
   return true;

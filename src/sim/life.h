@@ -63,10 +63,10 @@ class Life {
 
  private:
   bool is_blocked(const Pose2& world_T_robot) const;
+  bool is_in_something(const Vector2& p) const;
   void move_actors();
   void note_truth();
 
-  World world_;
   Time begin_, now_;
   std::uint64_t steps_ = 0;
   Actors actors_;

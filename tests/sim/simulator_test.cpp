@@ -262,8 +262,13 @@ TEST(Simulator, OneDeviceDoesNotDisturbAnother) {
 TEST(Simulator, KicksTheRobotIntoFreeSpaceOnly) {
   World world = bare_room();
   world.furniture.push_back(box_at(4, 3, 1.0, 0, 1));
+  Furniture moved = box_at(6, 3, 1.0, 0, 1);
+  moved.moves = {{0.1, 0.5, {6, 1, 0}}};
+  world.furniture.push_back(moved);
   SteppedSim sim(world);
+  sim.go_to(1.0);
   EXPECT_FALSE(sim.simulator->kick({2.0, 0.0, 0.0})) << "there stands a box";
+  EXPECT_FALSE(sim.simulator->kick({4.0, -2.0, 0.0})) << "there stands one now";
   EXPECT_FALSE(sim.simulator->kick({-1.9, 0.0, 0.0})) << "that is in the wall";
   EXPECT_FALSE(sim.simulator->kick({20.0, 0.0, 0.0})) << "out of the world";
   EXPECT_THAT(sim.simulator->truth().world_T_robot, PoseNear(Pose2{2, 3, 0}, 1e-12, 1e-12));
