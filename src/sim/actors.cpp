@@ -140,6 +140,19 @@ bool Actors::may_walk_to(const PersonState& state, const Vector2& next, const Po
   });
 }
 
+void Actors::turn_to_next_point(PersonState& state) {
+  const std::size_t n = state.person.route.size();
+  const bool is_last = state.backwards ? state.target == 0 : state.target + 1 == n;
+  if (state.person.then == RouteEnd::kRound) {
+    state.target = (state.target + (state.backwards ? n - 1 : 1)) % n;
+  } else if (is_last && state.person.then == RouteEnd::kStay && !state.backwards) {
+    state.target = n;  // nowhere
+  } else {
+    if (is_last) state.backwards = !state.backwards;
+    state.target += state.backwards ? -1 : 1;
+  }
+}
+
 bool Actors::step_person(PersonState& state, double now_s, double dt_s, const Pose2& world_T_robot) const {
   const std::vector<Vector2>& route = state.person.route;
   if (now_s < state.person.starts_at_s || state.target >= route.size()) return false;
@@ -147,25 +160,13 @@ bool Actors::step_person(PersonState& state, double now_s, double dt_s, const Po
     state.pause_left_s -= dt_s;
     return false;
   }
-  const auto turn_to_next = [&] {
-    const std::size_t n = route.size();
-    const bool is_last = state.backwards ? state.target == 0 : state.target + 1 == n;
-    if (state.person.then == RouteEnd::kRound) {
-      state.target = (state.target + (state.backwards ? n - 1 : 1)) % n;
-    } else if (is_last && state.person.then == RouteEnd::kStay && !state.backwards) {
-      state.target = n;  // nowhere
-    } else {
-      if (is_last) state.backwards = !state.backwards;
-      state.target += state.backwards ? -1 : 1;
-    }
-  };
   const Vector2 way = route[state.target] - state.at;
   const double step_m = state.person.speed_mps * dt_s;
   if (way.norm() <= step_m) {
     for (const Pause& pause : state.person.pauses) {
       if (pause.at_point == state.target) state.pause_left_s = pause.lasts_s;
     }
-    turn_to_next();
+    turn_to_next_point(state);
     return false;
   }
   const Vector2 next = state.at + step_m * way.normalized();
@@ -174,7 +175,7 @@ bool Actors::step_person(PersonState& state, double now_s, double dt_s, const Po
     if (state.waited_s < kPatience_s) return false;
     state.waited_s = 0.0;
     state.backwards = !state.backwards;
-    turn_to_next();
+    turn_to_next_point(state);
     return false;
   }
   state.waited_s = 0.0;

@@ -49,6 +49,7 @@ class Actors {
   bool step_door(DoorState& state, double now_s, double dt_s, const Pose2& world_T_robot) const;
   bool step_person(PersonState& state, double now_s, double dt_s, const Pose2& world_T_robot) const;
   bool step_furniture(FurnitureState& state, double now_s, double dt_s, const Pose2& world_T_robot) const;
+  static void turn_to_next_point(PersonState& state);
   bool may_walk_to(const PersonState& state, const Vector2& next, const Pose2& world_T_robot) const;
 
   std::vector<DoorState> doors_;
