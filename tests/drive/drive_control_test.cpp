@@ -255,7 +255,7 @@ TEST(DriveConfig, EveryTableNamesItsFieldsAndDefaultsLieWithinTheLimits) {
     });
   });
   EXPECT_EQ(tables, 6);
-  EXPECT_EQ(fields, 2 + 2 + 11 + 7 + 10 + 10);
+  EXPECT_EQ(fields, 2 + 2 + 12 + 7 + 10 + 10);
 }
 
 }  // namespace
