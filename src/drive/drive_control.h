@@ -49,7 +49,7 @@ class DriveControl {
   explicit DriveControl(const DriveConfig& config = {});
 
   /// One tick, every 20 ms and at deadline(). REQUIRES: `now` was read after the inputs were taken. Takes any
-  /// input and any time; a `now` before the last one stops the robot.
+  /// input and any time that is_representable_s(); a `now` before the last one stops the robot.
   DriveOutput step(Time now, const DriveInputs& in);
 
   /// When the driver will be lost if nothing more is heard: the next step() should not be later.

@@ -12,7 +12,7 @@ Heartbeat::State Heartbeat::update(Time now, const std::optional<DriveCommand>& 
   }
   now_ = now;
   if (newest && !is_known(*newest)) accept(*newest);
-  if (last_ && now - last_->heard >= timeout_) lose();
+  if (last_ && last_->heard + timeout_ <= now) lose();
   if (!last_) return state_ = State::kSilent;
   if (last_->heard - steady_since_ < debounce_) return state_ = State::kUnsteady;
   if (!is_moving(last_->twist)) armed_ = true;
@@ -32,7 +32,7 @@ void Heartbeat::accept(const DriveCommand& command) {
     return;
   }
   // A gap that no update() fell into is a loss all the same.
-  if (last_ && command.heard - last_->heard >= timeout_) lose();
+  if (last_ && last_->heard + timeout_ <= command.heard) lose();
   if (!last_) steady_since_ = command.heard;
   last_ = command;
   last_heard_ = command.heard;
