@@ -13,7 +13,6 @@
 
 #include "config.h"
 #include "replay_command.h"
-#include "robot/steady_memory.h"
 #include "sim_command.h"
 
 namespace {
@@ -96,7 +95,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  dynslam::keep_memory_steady();
   spdlog::set_default_logger(spdlog::stderr_color_mt("dynslam"));
   spdlog::set_pattern("%n: %^%v%$");
   try {

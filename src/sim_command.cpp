@@ -15,6 +15,7 @@
 #include "result_files.h"
 #include "robot/robot.h"
 #include "robot/stage_clock.h"
+#include "robot/steady_memory.h"
 #include "robot/tour.h"
 #include "sim/simulator.h"
 
@@ -171,6 +172,8 @@ void tell(const SimOptions& options, const nlohmann::json& mission, const Mappin
 }  // namespace
 
 int run_sim(const SimOptions& options, const Config& config) {
+  keep_memory_steady();  // a robot runs for months; a replay is better off with memory that it need not ask
+                         // for again
   if (options.mission != "tour")
     throw InputError("--mission " + options.mission + ": there is only 'tour' so far");
   std::optional<OutputFolder> out;

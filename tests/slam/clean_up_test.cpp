@@ -154,7 +154,7 @@ LocalMap wall_of(const std::vector<std::pair<int, int>>& hits_and_misses) {
 }
 
 TEST(CleanUp, FaintSurfacesAreDrawnBetweenClearOnesOnly) {
-  const std::pair<int, int> clear(12, 0), faint(2, 0), nothing(0, 0);
+  const std::pair<int, int> clear(12, 0), faint(2, 0);
   std::vector<std::pair<int, int>> cells(10, clear);
   cells.insert(cells.end(), 4, faint);
   cells.insert(cells.end(), 10, clear);
