@@ -72,7 +72,7 @@ Finding Safety::obstacle(Time now, const ClearWay& way, const Twist& twist) {
   }
   const char* where = twist.v_mps > 0.0 ? " ahead" : twist.v_mps < 0.0 ? " behind" : " beside";
   const Motion motion = way.share > 0.0 ? Motion::kSlow : Motion::kHold;
-  const Finding row{Cause::kObstacle, {motion, "obstacle " + fixed_text(way.distance_m, 2) + " m" + where}};
+  Finding row{Cause::kObstacle, {motion, "obstacle " + fixed_text(way.distance_m, 2) + " m" + where}};
   if (motion == Motion::kSlow) {
     slowed_ = row;
     slowed_at_ = now;

@@ -88,7 +88,7 @@ Actors::Actors(const World& world) {
 std::vector<Vector2> Actors::reach(const World& world) {
   std::vector<Vector2> points;
   const auto add_disc = [&](const Vector2& p, double r) {
-    for (const double side : {-r, r}) points.push_back(p.array() + side);
+    for (const double side : {-r, r}) points.emplace_back(p.array() + side);
   };
   for (const Door& door : world.doors) add_disc(door.hinge, (door.latch - door.hinge).norm() + 0.1);
   for (const Person& person : world.people) {

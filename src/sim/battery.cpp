@@ -27,7 +27,7 @@ void Battery::set_share(double share) { share_ = std::clamp(share, 0.0, 1.0); }
 void Battery::step(double current_a, double dt_s) {
   constexpr double kSettling_s = 0.01;  // capacitors on the board
   current_a_ += (current_a - current_a_) * std::min(1.0, dt_s / kSettling_s);
-  set_share(share_ - current_a * dt_s / kCapacity_As);
+  set_share(share_ - current_a * dt_s / kCapacityAs);
 }
 
 double Battery::voltage_v() const { return open_circuit_v(share_) - current_a_ * kResistance_ohm; }

@@ -12,7 +12,7 @@ class Battery {
   void step(double current_a, double dt_s);
   double voltage_v() const;
 
-  static constexpr double kCapacity_As = 2.1 * 3600;
+  static constexpr double kCapacityAs = 2.1 * 3600;
   static constexpr double kResistance_ohm = 0.35;
 
  private:

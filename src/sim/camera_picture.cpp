@@ -23,20 +23,18 @@ Rgb in_fog(const Rgb& c, double distance_m) {
 
 /// How much light falls on a face, by where its outside points: from a window to the left, and all around.
 float light_on(const RayHit& hit, const Vector2& at, const Vector2& looking) {
-  static const Vector2 to_light = Vector2(-0.45, 0.89);
+  static const Vector2 kToLight = Vector2(-0.45, 0.89);
   const Surface& s = *hit.surface;
   Vector2 out = s.radius_m > 0 ? Vector2(at - s.from) : Vector2(s.along.y(), -s.along.x());
   out.normalize();
   if (out.dot(looking) > 0) out = -out;
-  return 0.80F + 0.20F * static_cast<float>(out.dot(to_light));
+  return 0.80F + 0.20F * static_cast<float>(out.dot(kToLight));
 }
 
 }  // namespace
 
 CameraPicture::CameraPicture(const World& world)
-    : caster_(fixed_surfaces(world), Actors::reach(world)),
-      floor_(world, fixed_surfaces(world)),
-      ceiling_m_(2.5) {
+    : caster_(fixed_surfaces(world), Actors::reach(world)), floor_(world, fixed_surfaces(world)) {
   for (const Wall& wall : world.walls) ceiling_m_ = std::max(ceiling_m_, wall.height_m);
   picture_.width = kWidth;
   picture_.height = kHeight;

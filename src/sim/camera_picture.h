@@ -59,7 +59,7 @@ class CameraPicture {
 
   RayCaster caster_;
   FloorLook floor_;
-  double ceiling_m_;
+  double ceiling_m_ = 2.5;
   std::vector<RayHit> hits_;
   std::vector<const Surface*> within_;  ///< a face of each part that the ray is within
   Picture picture_;

@@ -134,7 +134,7 @@ struct Shape {
 };
 
 const std::map<std::string, Shape, std::less<>>& shapes() {
-  static const std::map<std::string, Shape, std::less<>> all = {
+  static const std::map<std::string, Shape, std::less<>> kAll = {
       {"box", {{0.5, 0.5}, 0, 0.0, 1.0, 0xb0936c, box}},
       {"round", {{0, 0}, 0.2, 0.0, 1.0, 0xa0a0a0, round_thing}},
       {"polygon", {{0, 0}, 0, 0.0, 1.0, 0xb0936c, polygon}},
@@ -147,18 +147,18 @@ const std::map<std::string, Shape, std::less<>>& shapes() {
       {"rack", {{2.7, 1.1}, 0, 0.0, 4.6, 0x2f5fa8, rack}},
       {"plant", {{0, 0}, 0.16, 0.0, 1.3, 0x4c8a4a, plant}},
   };
-  return all;
+  return kAll;
 }
 
 }  // namespace
 
 const std::vector<std::string>& furniture_shapes() {
-  static const std::vector<std::string> names = [] {
+  static const std::vector<std::string> kNames = [] {
     std::vector<std::string> all;
     for (const auto& [name, shape] : shapes()) all.push_back(name);
     return all;
   }();
-  return names;
+  return kNames;
 }
 
 std::vector<Part> furniture_parts(const FurnitureForm& form) {

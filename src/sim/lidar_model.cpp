@@ -45,7 +45,8 @@ double LidarModel::measured_m(const SpaceRay& ray, const RayCaster& caster) {
     range_m += random_.uniform() * (before_m - true_m);
   }
   range_m += noise * (0.01 + 0.005 * range_m);
-  return range_m < kMinRange_m || range_m > kMaxRange_m ? kNothing : range_m;
+  if (range_m < kMinRange_m || range_m > kMaxRange_m) return kNothing;
+  return range_m;
 }
 
 void LidarModel::step(Duration length, const BodyPose& at_begin, const BodyPose& at_end,

@@ -121,7 +121,7 @@ std::shared_ptr<const RayCaster::Buckets> RayCaster::sorted_in(const std::vector
   return std::make_shared<const Buckets>(std::move(b));
 }
 
-RayCaster::RayCaster(std::vector<Surface> fixed, const std::vector<Vector2>& reach)
+RayCaster::RayCaster(const std::vector<Surface>& fixed, const std::vector<Vector2>& reach)
     : buckets_(sorted_in(fixed, reach)), first_link_(buckets_->begin.size() - 1, -1) {}
 
 void RayCaster::set_moving(std::vector<Surface> moving) {

@@ -35,7 +35,7 @@ struct RayHit {
 class RayCaster {
  public:
   /// REQUIRES: finite; the moving ones stay within `reach`, which is added to what the fixed ones span.
-  RayCaster(std::vector<Surface> fixed, const std::vector<Vector2>& reach);
+  RayCaster(const std::vector<Surface>& fixed, const std::vector<Vector2>& reach);
 
   void set_moving(std::vector<Surface> moving);
   const std::vector<Surface>& moving() const { return moving_; }

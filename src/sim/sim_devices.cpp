@@ -62,7 +62,7 @@ class SimPins : public Pins {
 
 }  // namespace
 
-Devices make_devices(std::shared_ptr<Simulator> simulator) {
+Devices make_devices(const std::shared_ptr<Simulator>& simulator) {
   Devices devices;
   devices.lidar = std::make_unique<SimLidar>(simulator);
   devices.imu = std::make_unique<SimImu>(simulator);

@@ -43,14 +43,14 @@ void falsify(ImuSample& sample, FaultKind kind) {
 
 void falsify(CameraView&, FaultKind) {}
 
-DeviceError unplugged(SimDevice device) {
-  return DeviceError(std::string(kSimDeviceNames[static_cast<std::size_t>(device)]) +
-                     ": unplugged (simulated): is its cable in?");
+[[noreturn]] void throw_unplugged(SimDevice device) {
+  throw DeviceError(std::string(kSimDeviceNames[static_cast<std::size_t>(device)]) +
+                    ": unplugged (simulated): is its cable in?");
 }
 
-DeviceError silent(SimDevice device) {
-  return DeviceError(std::string(kSimDeviceNames[static_cast<std::size_t>(device)]) +
-                     ": no answer within 50 ms (simulated): has it power?");
+[[noreturn]] void throw_silent(SimDevice device) {
+  throw DeviceError(std::string(kSimDeviceNames[static_cast<std::size_t>(device)]) +
+                    ": no answer within 50 ms (simulated): has it power?");
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ std::optional<T> Simulator::next(SimDevice device, Outbox<T>& box, std::optional
     const auto fault = fault_of(device, now);
     const Duration delay = fault == FaultKind::kDelayed ? kFaultDelay : Duration::zero();
     if (fault == FaultKind::kUnplugged || fault == FaultKind::kSilent) box.clear();
-    if (fault == FaultKind::kUnplugged) throw unplugged(device);
+    if (fault == FaultKind::kUnplugged) throw_unplugged(device);
     if (auto sample = box.take(now - delay)) {
       if (fault == FaultKind::kFrozen && last) {
         const Time stamp = sample->stamp;
@@ -127,10 +127,10 @@ std::optional<CameraView> Simulator::next_view(Time until) {
 std::optional<FaultKind> Simulator::answer(SimDevice device, Lock& lock) {
   const Time now = catch_up();
   const auto fault = fault_of(device, now);
-  if (fault == FaultKind::kUnplugged) throw unplugged(device);
+  if (fault == FaultKind::kUnplugged) throw_unplugged(device);
   if (fault != FaultKind::kSilent) return fault;
   for (const Time end = now + kBusTimeout; waits_ && clock_.now() < end;) sleep_until(end, lock);
-  throw silent(device);
+  throw_silent(device);
 }
 
 void Simulator::drive(const WheelPower& power) {

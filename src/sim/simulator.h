@@ -104,6 +104,6 @@ class Simulator {
 };
 
 /// All of the simulated robot's hardware. Each keeps the simulator alive.
-Devices make_devices(std::shared_ptr<Simulator> simulator);
+Devices make_devices(const std::shared_ptr<Simulator>& simulator);
 
 }  // namespace dynslam

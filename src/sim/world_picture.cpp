@@ -16,7 +16,7 @@ class Svg {
   Svg(const Vector2& low, const Vector2& high) : low_(low), high_(high) {
     const Vector2 span = high - low;
     const double px_per_m = std::clamp(1400.0 / span.x(), 10.0, 100.0);
-    text_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(span.x() * px_per_m, 0) +
+    text_ = R"(<svg xmlns="http://www.w3.org/2000/svg" width=")" + number(span.x() * px_per_m, 0) +
             "\" height=\"" + number(span.y() * px_per_m, 0) + "\" viewBox=\"0 0 " + number(span.x()) + ' ' +
             number(span.y()) +
             "\" stroke-linejoin=\"round\">\n<rect width=\"100%\" height=\"100%\" fill=\"#f4f2ee\"/>\n";
@@ -56,7 +56,7 @@ class Svg {
   }
   void label(const Vector2& p, const std::string& text, const std::string& style) {
     text_ += "<text x=\"" + number(p.x() - low_.x()) + "\" y=\"" + number(high_.y() - p.y()) +
-             "\" font-family=\"sans-serif\" " + style + '>';
+             R"(" font-family="sans-serif" )" + style + '>';
     for (const char c : text) text_ += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
     text_ += "</text>\n";
   }
@@ -70,7 +70,7 @@ class Svg {
 std::string fill(Colour c, const std::string& more = "") { return "fill=\"" + Svg::hex(c) + "\" " + more; }
 
 std::string stroke(const std::string& colour, double width_m, const std::string& more = "") {
-  return "fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"" + Svg::number(width_m) + "\" " + more;
+  return R"(fill="none" stroke=")" + colour + "\" stroke-width=\"" + Svg::number(width_m) + "\" " + more;
 }
 
 void draw_furniture(const World& world, Svg& svg) {
@@ -82,8 +82,8 @@ void draw_furniture(const World& world, Svg& svg) {
       const bool is_overhead = part.low_m > kRobotHigh_m;  // what the robot passes under is drawn thin
       svg.shape(
           part, thing.world_T_thing,
-          fill(part.colour, is_overhead ? "fill-opacity=\"0.6\" stroke=\"#00000060\" stroke-width=\"0.012\""
-                                        : "stroke=\"#000000a0\" stroke-width=\"0.015\""));
+          fill(part.colour, is_overhead ? R"(fill-opacity="0.6" stroke="#00000060" stroke-width="0.012")"
+                                        : R"(stroke="#000000a0" stroke-width="0.015")"));
     }
     std::vector<Vector2> stations{thing.world_T_thing.translation()};
     for (const FurnitureMove& move : thing.moves) stations.push_back(move.to.translation());
@@ -96,7 +96,7 @@ void draw_door(const Door& door, Svg& svg) {
   const double closed = std::atan2(across.y(), across.x());
   std::vector<Vector2> arc;
   for (int i = 0; i <= 12; ++i) {
-    arc.push_back(door.hinge + across.norm() * unit(closed + door.opens_rad * i / 12));
+    arc.emplace_back(door.hinge + across.norm() * unit(closed + door.opens_rad * i / 12));
   }
   svg.line(arc, stroke("#b98a5e", 0.02, "stroke-dasharray=\"0.06\""));
   svg.line({door.hinge, door.hinge + across.norm() * unit(closed + door.opens_rad * door.open)},
@@ -117,7 +117,7 @@ void draw_routes(const World& world, Svg& svg, double width_m) {
   tour.insert(tour.begin(), world.world_T_start.translation());
   svg.line(tour, stroke("#d23c3c", width_m, "stroke-opacity=\"0.7\""));
   for (std::size_t i = 1; i < tour.size(); ++i) {
-    svg.label(tour[i], std::to_string(i), "font-size=\"" + Svg::number(6 * width_m) + "\" fill=\"#a01818\"");
+    svg.label(tour[i], std::to_string(i), "font-size=\"" + Svg::number(6 * width_m) + R"(" fill="#a01818")");
   }
   const Pose2& start = world.world_T_start;
   svg.line(rectangle(start, kRobotLength_m, kRobotWidth_m), fill(0xd23c3c), "polygon");
