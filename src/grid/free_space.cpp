@@ -179,8 +179,7 @@ void FreeSpace::mark_hits(std::span<const RayEnd> ends, double max_wedge_rad, do
         mark_hit({c.x + first.x, c.y + first.y});
       });
     } else {
-      mark_hit({first.x + static_cast<std::int32_t>(std::floor(corners_[i].x)),
-                first.y + static_cast<std::int32_t>(std::floor(corners_[i].y))});
+      mark_hit({first.x + floor_to_int(corners_[i].x), first.y + floor_to_int(corners_[i].y)});
     }
   }
 }

@@ -144,10 +144,14 @@ void MaxPyramid::draw_surfaces(const FinishedMap& map) {
     const double px = at->x(), py = at->y();
     const int x0 = static_cast<int>(px), y0 = static_cast<int>(py);
     known_.set({x0, y0});
+    double in_row[3], in_column[3];
     for (int i = 0; i < 3; ++i) {
-      const double in_row = ridge(y0 - 0.5 + i - py);
+      in_row[i] = ridge(y0 - 0.5 + i - py);
+      in_column[i] = ridge(x0 - 0.5 + i - px);
+    }
+    for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) {
-        const double near = in_row * ridge(x0 - 0.5 + k - px);
+        const double near = in_row[i] * in_column[k];
         std::uint8_t& byte = base.bytes[static_cast<std::size_t>(base.offset(x0 - 1 + k, y0 - 1 + i))];
         byte = std::max(byte, static_cast<std::uint8_t>(255 * near + 0.5));
       }

@@ -251,8 +251,7 @@ void ScanMatcher::judge(const ChunkedGrid& map, const Pose2& pose, MatchResult& 
     const float hit =
         smooth_hit(fine_, static_cast<float>(in_window.x) + dx, static_cast<float>(in_window.y) + dy);
     all += 1;
-    const CellIndex cell{static_cast<std::int32_t>(std::floor(pose.x + dx)),
-                         static_cast<std::int32_t>(std::floor(pose.y + dy))};
+    const CellIndex cell{floor_to_int(pose.x + dx), floor_to_int(pose.y + dy)};
     const std::uint8_t byte = map.hit(cell);
     hits += byte > 0 ? 1 : 0;
     hit_bytes += byte;

@@ -59,8 +59,8 @@ SurfaceFit::SurfaceFit(std::span<const CloudPoint> cloud, double cell_size_m)
   for (const Eigen::Vector2f& p : finite) points_[next[bin(p)]++] = p;
 }
 
-int SurfaceFit::column(double x) const { return static_cast<int>(std::floor((x - low_.x()) / reach_m_)); }
-int SurfaceFit::row(double y) const { return static_cast<int>(std::floor((y - low_.y()) / reach_m_)); }
+int SurfaceFit::column(double x) const { return floor_to_int((x - low_.x()) / reach_m_); }
+int SurfaceFit::row(double y) const { return floor_to_int((y - low_.y()) / reach_m_); }
 
 /// The line through the cloud around a place: mean and main direction of the points in reach, near ones
 /// counting more.
