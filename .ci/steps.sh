@@ -43,19 +43,27 @@ step_host() {
   toolchain/host.sh test
 }
 
-step_replay() {
-  local name files=(map.png map.pgm map.yaml trajectory.tum trajectory_live.tum report.json)
-  out=$(mktemp -d)
-  trap 'rm -rf "$out"' EXIT
-  rm -f "${files[@]/#/out/}"
-  toolchain/host.sh run
-  toolchain/host.sh run replay "$recording" --set slam.trusted_range_m=30 --out "$out" --quiet
+# Runs dynslam twice with the same arguments; all files are there, and all but the report are the same.
+twice_the_same() {
+  local name files=(map.png map.pgm map.yaml trajectory.tum trajectory_live.tum graph.svg report.json)
+  first=$(mktemp -d) second=$(mktemp -d)
+  trap 'rm -rf "$first" "$second"' EXIT
+  toolchain/host.sh run "$@" --out "$first"
+  toolchain/host.sh run "$@" --out "$second"
   for name in "${files[@]}"; do
-    [[ -s out/$name && -s $out/$name ]] || { echo "$name was not written" && return 1; }
-    [[ $name == report.json ]] || cmp "out/$name" "$out/$name"
+    [[ -s $first/$name ]] || { echo "$name was not written" && return 1; }
+    [[ $name == report.json ]] || cmp "$first/$name" "$second/$name"
   done
-  echo "all ${#files[@]} files are there; a second run gave the same trajectories and map"
-  fingerprint out
+  echo "all ${#files[@]} files are there; a second run gave the same"
+  fingerprint "$first"
+}
+
+step_replay() { twice_the_same replay "$recording" --set slam.trusted_range_m=30; }
+
+step_sim() {
+  toolchain/host.sh run
+  [[ -s out/map.png ]]
+  twice_the_same sim --headless --speed 0 --duration 60 --seed 7 --world clutter
 }
 
 step_asan() {
@@ -98,7 +106,7 @@ step_coverage() {
   run_tests build/coverage
   local lines=build/coverage/lines.json folder failed=0
   quietly gcovr --root . --object-directory build/coverage --filter src/ --json "$lines"
-  for folder in base grid io slam; do
+  for folder in base grid pipe io slam drive sim robot; do
     # Never --output to a device: gcovr, run by root, puts a file in its place.
     gcovr --root . --add-tracefile "$lines" --filter "src/$folder/" --fail-under-line 90 \
       --print-summary --output "$logs/gcovr.txt" >"$logs/gcovr" || failed=1

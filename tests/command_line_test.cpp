@@ -181,6 +181,36 @@ TEST_F(CommandLine, ReportsEveryWrongSettingAtOnce) {
   EXPECT_THAT(o.err, HasSubstr("slam.nonsense"));
 }
 
+TEST_F(CommandLine, SimulatesAMissionTwiceTheSame) {
+  for (const char* out : {"a", "b"}) {
+    const Outcome o = dynslam("sim --world empty --headless --speed 0 --duration 12 --seed 3 --out " +
+                              (folder_ / out).string());
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_THAT(o.out, HasSubstr("map picture"));
+  }
+  for (const char* name :
+       {"trajectory.tum", "trajectory_live.tum", "truth.tum", "map.pgm", "map.png", "world.svg"}) {
+    const std::string bytes = contents(folder_ / "a" / name);
+    EXPECT_FALSE(bytes.empty()) << name;
+    EXPECT_EQ(bytes, contents(folder_ / "b" / name)) << name;
+  }
+  const auto mission = nlohmann::json::parse(contents(folder_ / "a" / "report.json"))["mission"];
+  EXPECT_EQ(mission["result"], "timeout");
+  EXPECT_NEAR(mission["time_s"].get<double>(), 12.0, 0.02);
+  EXPECT_GT(mission["distance_m"].get<double>(), 1.0);
+  EXPECT_EQ(mission["contacts"], 0);
+}
+
+TEST_F(CommandLine, NamesWhatIsWrongWithASimulation) {
+  expect_one_line(dynslam("sim --world nowhere --speed 0"), 2, "nowhere");
+  expect_one_line(dynslam("sim --mission fly --speed 0"), 2, "fly");
+  expect_one_line(dynslam("sim --speed -1"), 2, "--speed");
+  const std::string world = file("bad.toml", "name = \"bad\"\nstart = { at = [1, 1] }\nwals = []\n");
+  const Outcome o = dynslam("sim --speed 0 --world " + world);
+  EXPECT_EQ(o.code, 2);
+  EXPECT_THAT(o.err, HasSubstr("bad.toml:3"));
+}
+
 TEST_F(CommandLine, ChecksAConfigFile) {
   const Outcome good = dynslam("check-config " + file("good.toml", "[slam]\ncell_size_m = 0.05\n"));
   EXPECT_EQ(good.code, 0) << good.err;
