@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam/back_end.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -77,6 +78,14 @@ bool BackEnd::knows_since(std::uint32_t local_map_id) const {
   return tie && !is_anyones_guess(*tie);
 }
 
+/// Where a robot that was lost began a map: the IMU, where there is one, turned with it.
+Eigen::Matrix3d BackEnd::lost_covariance(const LocalMap& map) const {
+  Eigen::Matrix3d covariance = map.origin_covariance;
+  if (map.imu_heading_rad && last_heading_rad_)
+    covariance(2, 2) = std::min(covariance(2, 2), kLostWithImu_rad * kLostWithImu_rad);
+  return covariance;
+}
+
 /// Puts a map where the newest finished one says the drawn frame lies, and ties it to the one before.
 void BackEnd::add_node(const LocalMap& map) {
   const Pose2 map_T_drawn_now = map_T_drawn(map.id);
@@ -92,7 +101,7 @@ void BackEnd::add_node(const LocalMap& map) {
       map.is_tied
           ? Eigen::Matrix3d(kMatchInflation * turned(map.origin_covariance, -last->drawn_T_origin.yaw) +
                             spread(kBend_m + kDrift * between_m, kBend_rad + kDrift_radpm * between_m))
-          : spread(kLost_m, map.imu_heading_rad && last_heading_rad_ ? kLostWithImu_rad : kLost_rad);
+          : lost_covariance(map);
   if (!map.is_tied && !lost_since_) lost_since_ = map.id;
   graph_.add_odometry_edge(before, map.id, before_T_this, covariance);
   add_turn(before, map);

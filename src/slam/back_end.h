@@ -66,6 +66,7 @@ class BackEnd {
   };
 
   void add_node(const LocalMap& map);
+  Eigen::Matrix3d lost_covariance(const LocalMap& map) const;
   void add_turn(std::uint32_t before, const LocalMap& map);
   void drop_preview();
   void settle();

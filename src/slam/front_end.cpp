@@ -28,6 +28,9 @@ constexpr double kUnitNorm = 0.05;
 /// say the robot is.
 constexpr int kMostUnmatched = 20;
 constexpr double kMostBlind_m = 1.0;
+/// What wheels know after such a way. A robot that was carried meanwhile, or has none, knows nothing.
+constexpr double kBlind_m = 0.6;
+constexpr double kBlind_rad = 0.3;
 /// When less of the scan lies on what the map holds, the prior is doubted; it is set aside for an answer that
 /// fits so much better.
 constexpr double kPoorlyMatched = 0.65;
@@ -147,7 +150,7 @@ FrontEndResult FrontEnd::process(const Scan& scan) {
     insert(std::move(corrected), fix.map_T_robot);
   }
   result.lost = lost_since_.has_value();
-  if (result.lost) result.covariance += spread(kLost_m, kLost_rad);
+  if (result.lost) result.covariance += lost_covariance_;
   return result;
 }
 
@@ -185,6 +188,8 @@ void FrontEnd::lose() {
   complete_all();
   if (!lost_since_) lost_since_ = next_id_;
   lost_last_ = next_id_;
+  lost_covariance_ =
+      motion_.has_wheels() && !was_carried_ ? spread(kBlind_m, kBlind_rad) : spread(kLost_m, kLost_rad);
   unmatched_in_a_row_ = unproven_ = 0;
   usual_hit_ = usual_score_ = usual_known_ = 0.0;
 }
@@ -247,7 +252,9 @@ FrontEnd::Fix FrontEnd::locate(const CorrectedScan& scan) {
   if (motion_.wheels_leap(scan.reference)) look_along_wheels(scan.reference, fix);
   if (is_doubtful(fix.match)) look_about(scan.reference, fix);
   fix.matched = is_believable(fix.match) && !is_elsewhere(fix.match, scan);
+  was_carried_ = was_carried_ || (is_believable(fix.match) && !fix.matched);
   mistrust_leap(scan, fix);
+  if (fix.matched && unproven_ == 0) was_carried_ = false;
   fix.map_T_robot = fix.match.map_T_robot;
   if (!fix.matched) go_on_blindly(prior, fix);
   if (!is_within(fix.map_T_robot, kFarthest_m)) {
@@ -321,6 +328,7 @@ void FrontEnd::mistrust_leap(const CorrectedScan& scan, Fix& fix) {
   const bool leaps = fix.matched && motion_.is_leap(scan.reference, fix.match.map_T_robot);
   unproven_ = leaps ? kProofOfLeap : std::max(0, unproven_ - 1);
   if (leaps) counters_.add("slam.leaps");
+  was_carried_ = was_carried_ || leaps;
   if (unproven_ == 0 || !fix.matched) return;
   fix.matched = !is_doubtful(fix.match) && through_walls(fix.match, scan) < kThroughWalls;
 }
@@ -330,8 +338,9 @@ void FrontEnd::begin_local_map(const Fix& fix, Time t) {
                            t);
   local_maps_.back().id = next_id_++;
   local_maps_.back().imu_heading_rad = motion_.imu_heading(t);
-  local_maps_.back().origin_covariance = fix.match.covariance;
-  local_maps_.back().is_tied = local_maps_.size() > 1;
+  const bool is_tied = local_maps_.size() > 1;
+  local_maps_.back().is_tied = is_tied;
+  local_maps_.back().origin_covariance = is_tied ? fix.match.covariance : lost_covariance_;
 }
 
 void FrontEnd::complete_all() {

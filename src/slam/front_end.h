@@ -142,7 +142,9 @@ class FrontEnd {
   double usual_known_ = 0.0;                              ///< see MatchResult
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();  ///< of the last fix
   std::optional<std::uint32_t> lost_since_;
-  std::uint32_t lost_last_ = 0;  ///< as lost_since_, of the last time
+  std::uint32_t lost_last_ = 0;                                ///< as lost_since_, of the last time
+  Eigen::Matrix3d lost_covariance_ = Eigen::Matrix3d::Zero();  ///< of where it was then
+  bool was_carried_ = false;  ///< since the last match, a scan went through walls or asked for a leap
   Drawn last_drawn_;
   int unmatched_in_a_row_ = 0;
   int unproven_ = 0;  ///< scans that have to bear a leap out before it is believed

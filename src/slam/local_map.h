@@ -35,7 +35,8 @@ struct LocalMap {
   ChunkedGrid grid;
   std::uint32_t id = 0;  ///< counted up
   Pose2 map_T_origin;
-  /// Of map_T_origin, as the map before this one told it: m2, m rad, rad2. Meaningless unless is_tied.
+  /// Of map_T_origin, as the map before this one told it: m2, m rad, rad2. Of a map that is not tied, what is
+  /// known of a robot that was lost.
   Eigen::Matrix3d origin_covariance = Eigen::Matrix3d::Zero();
   bool is_tied = false;                   ///< begun at a scan that was matched against the map before
   std::optional<double> imu_heading_rad;  ///< when it was begun, continuous

@@ -48,6 +48,8 @@ class MotionModel {
   /// trusted any more.
   std::optional<double> imu_turn(Time from, Time to) const;
   std::optional<Pose2> wheel_motion(Time from, Time to) const;
+  /// Whether the robot has wheels that tell, and that are believed.
+  bool has_wheels() const { return wheels_trusted_ && odometry_.pose_at(time_).has_value(); }
   std::optional<double> imu_heading(Time t) const { return imu_trusted_ ? imu_.heading_at(t) : std::nullopt; }
 
   /// Takes the vote from a sensor that was found to contradict the lidar. Tilt stays in use.

@@ -273,14 +273,20 @@ TEST(LiveRobot, ADeviceThatThrowsWhatItMustNotEndsTheRobotAndNotTheProgram) {
 TEST(LiveRobot, SaysWhenADeviceHangs) {
   std::mutex mutex;
   std::condition_variable changed;
-  bool free = false;
+  bool hangs = false, free = false;
   LiveRobot r(std::make_unique<PuppetLidar>([&](Time) -> std::optional<Scan> {
     std::unique_lock lock(mutex);
+    hangs = true;
+    changed.notify_all();
     changed.wait(lock, [&] { return free; });
     return std::nullopt;
   }));
   r.robot->start();
   ASSERT_TRUE(r.wait_until([](const DriveState& d) { return d.verdict.motion == Motion::kStop; }));
+  {
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] { return hangs; });
+  }
   EXPECT_TRUE(r.robot->stop(std::chrono::milliseconds(100)).hangs);
   EXPECT_EQ(r.motors->calls().back().power, WheelPower{}) << "all the same";
   {
