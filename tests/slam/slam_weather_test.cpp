@@ -337,6 +337,46 @@ TEST(SlamWeather, TheCovarianceOfAKidnappedRobotCoversWhereItIs) {
   }
 }
 
+/// The flat, with scans that are noise for a while.
+FlatDrive drive_blinded(bool has_wheels) {
+  FlatDrive drive;
+  if (has_wheels) drive.wheels = drive.fair<OdometrySample>;
+  drive.scan_weather = [&](Scan s) {
+    std::uniform_real_distribution<float> range(0.3F, 6.0F);
+    const double t_s = seconds_of(s.stamp);
+    if (t_s > kFails_s && t_s < kFails_s + 3.5) {
+      for (Beam& b : s.beams) b.range_m = range(drive.random);
+    }
+    return std::vector{std::move(s)};
+  };
+  drive.run();
+  return drive;
+}
+
+TEST(SlamWeather, ABlindRobotKnowsByItsWheelsAboutWhereItIs) {
+  const FlatDrive drive = drive_blinded(true);
+  int lost = 0;
+  for (const ScanResult& r : drive.results) {
+    lost += r.lost ? 1 : 0;
+    EXPECT_LT(std::sqrt(r.covariance(0, 0)), 2.0) << r.lost;
+  }
+  EXPECT_GT(lost, 5);
+  EXPECT_FALSE(drive.results.back().lost);
+  EXPECT_LT(drive.worst_m(), 0.6);
+  EXPECT_LT(drive.worst_m(seconds_of(drive.results.back().stamp) - 2.0), 0.05);
+}
+
+TEST(SlamWeather, ABlindRobotWithoutWheelsOwnsToKnowNothing) {
+  const FlatDrive drive = drive_blinded(false);
+  int lost = 0;
+  for (const ScanResult& r : drive.results) {
+    if (!r.lost) continue;
+    ++lost;
+    EXPECT_GT(std::sqrt(r.covariance(0, 0)), 10.0);
+  }
+  EXPECT_GT(lost, 5);
+}
+
 TEST(SlamWeather, AKidnappedRobotThatIsNotFarMayFindItselfAtOnce) {
   Kidnapped drive({2.4, 2.85, 0}, true);
   EXPECT_EQ(drive.scans_until_lost(), std::nullopt);
