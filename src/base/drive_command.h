@@ -12,7 +12,8 @@ namespace dynslam {
 struct DriveCommand {
   std::uint64_t seq = 0;  ///< counted up by the sender
   Twist twist;
-  Time heard;  ///< when it reached the robot, by the robot's clock
+  Time heard;         ///< when it reached the robot, by the robot's clock
+  bool gone = false;  ///< the sender has left: from now on it is as if nothing were heard
 };
 
 }  // namespace dynslam

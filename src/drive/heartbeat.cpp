@@ -33,6 +33,11 @@ void Heartbeat::accept(const DriveCommand& command) {
   }
   // A gap that no update() fell into is a loss all the same.
   if (last_ && last_->heard + timeout_ <= command.heard) lose();
+  if (command.gone) {
+    lose();
+    last_heard_.reset();
+    return;
+  }
   if (!last_) steady_since_ = command.heard;
   last_ = command;
   last_heard_ = command.heard;

@@ -11,6 +11,7 @@ namespace {
 /// Reading the board takes as long as driving it; brownouts last some tenths of a second.
 constexpr Duration kReadMotorsEvery = std::chrono::milliseconds(100);
 constexpr Duration kShowHealthEvery = std::chrono::milliseconds(500);
+constexpr Duration kShowCountersEvery = std::chrono::seconds(1);
 
 template <class T>
 std::optional<T> value_of(const typename Latest<T>::Item& item) {
@@ -48,7 +49,12 @@ void ControlStage::turn() {
   const Time now = clock_.now();
   const DriveOutput out = control_.step(now, inputs_);
   drive(out.power);
-  ports_.drive.put({now, out.verdict, out.applied, out.power, out.battery});
+  ports_.drive.put(
+      {now, clock_.now(), inputs_.command, out.verdict, out.applied, out.power, out.battery});
+  if (now >= counters_due_) {
+    counters_due_ = now + kShowCountersEvery;
+    ports_.drive_counters.put(control_.refused());
+  }
   due_ = std::max(due_ + kTick, now);  // ticks that were missed are not made up for
   if (const auto deadline = control_.deadline(); deadline && *deadline > now)
     due_ = std::min(due_, *deadline);

@@ -42,7 +42,7 @@ class ControlStage {
   const Latest<ImuSample>& imu_;
   DriveControl control_;
   DriveInputs inputs_;
-  Time due_, motors_due_;
+  Time due_, motors_due_, counters_due_;
   DeviceHealth motors_health_, pins_health_;
 };
 

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/battery_state.h"
+#include "base/counters.h"
 #include "base/drive_command.h"
 #include "base/jpeg_frame.h"
 #include "base/motor_state.h"
@@ -31,6 +33,8 @@ struct DeviceHealth {
 /// What is driven and why, after a tick of the control.
 struct DriveState {
   Time time;
+  Time driven;                          ///< when the motors had their power
+  std::optional<DriveCommand> command;  ///< the newest that was known
   Verdict verdict;
   Twist applied;
   WheelPower power;
@@ -52,6 +56,7 @@ struct Ports {
   Latest<Scan> scan;
   Latest<DriveState> drive;
   Latest<JpegFrame> video;
+  Latest<Counters> slam_counters, graph_counters, drive_counters;  ///< about once a second
   Latest<DeviceHealth> lidar_health, imu_health, motors_health, camera_health, pins_health;
 };
 

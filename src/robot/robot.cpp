@@ -120,12 +120,7 @@ void Robot::finish() { slam_stage_.finish(); }
 
 Counters Robot::counters() const {
   Counters all = slam_.counters();
-  const auto add = [&all](const char* name, std::uint64_t n) {
-    if (n > 0) all.add(name, n);
-  };
-  add("queue.scans_dropped", slam_stage_.scans_dropped());
-  add("queue.imu_dropped", slam_stage_.imu_dropped());
-  add("queue.local_maps_dropped", slam_stage_.jobs_dropped());
+  for (const auto& [name, n] : slam_stage_.queue_counters()) all.add(name, n);
   for (const auto& [name, n] : control_.control().refused()) all.add(name, n);
   return all;
 }

@@ -8,6 +8,7 @@ namespace {
 
 /// So often is it looked whether the IMU has told of a scan's whole turn.
 constexpr Duration kMoment = std::chrono::milliseconds(10);
+constexpr Duration kShowCountersEvery = std::chrono::seconds(1);
 constexpr Duration kGraphPatience = std::chrono::milliseconds(200);
 
 }  // namespace
@@ -24,8 +25,10 @@ void SlamStage::turn() {
 }
 
 void SlamStage::graph_turn() {
-  if (auto job = jobs_.pop(clock_.steady(clock_.now() + kGraphPatience)))
-    corrections_.push(slam_.work_off(*job));
+  auto job = jobs_.pop(clock_.steady(clock_.now() + kGraphPatience));
+  if (!job) return;
+  corrections_.push(slam_.work_off(*job));
+  ports_.graph_counters.put(slam_.graph_counters());
 }
 
 void SlamStage::close() {
@@ -39,9 +42,26 @@ void SlamStage::finish() {
   slam_.finish();
 }
 
+Counters SlamStage::queue_counters() const {
+  Counters all;
+  const auto add = [&all](const char* name, std::uint64_t n) {
+    if (n > 0) all.add(name, n);
+  };
+  add("queue.scans_dropped", scans_.dropped());
+  add("queue.imu_dropped", imu_.dropped());
+  add("queue.local_maps_dropped", jobs_.dropped());
+  return all;
+}
+
 void SlamStage::show(const ScanResult& r) {
   ports_.world.put(
       {{r.stamp, r.map_T_robot, r.covariance, r.quality, r.lost}, slam_.global_map().snapshot()});
+  if (r.stamp >= counters_due_ || r.stamp + kShowCountersEvery < counters_due_) {
+    counters_due_ = r.stamp + kShowCountersEvery;
+    Counters all = queue_counters();
+    for (const auto& [name, n] : slam_.live_counters()) all.add(name, n);
+    ports_.slam_counters.put(std::move(all));
+  }
   if (notice_) notice_(r);
 }
 

@@ -34,9 +34,8 @@ class SlamStage {
   /// Works off what is under way. REQUIRES: no other thread is in here.
   void finish();
 
-  std::uint64_t scans_dropped() const { return scans_.dropped(); }
-  std::uint64_t imu_dropped() const { return imu_.dropped(); }
-  std::uint64_t jobs_dropped() const { return jobs_.dropped(); }
+  /// What the queues lost. Any thread.
+  Counters queue_counters() const;
 
  private:
   void show(const ScanResult& result);
@@ -45,6 +44,7 @@ class SlamStage {
   Ports& ports_;
   const Clock& clock_;
   Notice notice_;
+  Time counters_due_;
   BoundedQueue<ImuSample> imu_{256};
   BoundedQueue<std::shared_ptr<const Scan>> scans_{4};
   BoundedQueue<GraphJob> jobs_{64};

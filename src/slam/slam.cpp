@@ -143,8 +143,13 @@ std::vector<StampedFix> Slam::trajectory() const {
 }
 
 Counters Slam::counters() const {
-  Counters all = front_end_.counters();
+  Counters all = live_counters();
   for (const auto& [name, n] : back_end_.counters()) all.add(name, n);
+  return all;
+}
+
+Counters Slam::live_counters() const {
+  Counters all = front_end_.counters();
   const std::uint64_t refused = map_.grid().cells_refused();
   if (refused > 0) all.add("map.cells_refused", refused);
   return all;

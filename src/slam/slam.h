@@ -102,6 +102,9 @@ class Slam {
   std::vector<std::string> findings() const { return front_end_.findings(); }
   /// Weather: what was skipped, smoothed, refused.
   Counters counters() const;
+  /// Its two parts, for two threads: that of next(), and that of work_off().
+  Counters live_counters() const;
+  Counters graph_counters() const { return back_end_.counters(); }
 
  private:
   struct Visit {  ///< a scan, tied to the local map it was matched against
