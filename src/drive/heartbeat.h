@@ -27,8 +27,8 @@ struct HeartbeatConfig {
 /// The dead man's switch (thesis, 3.1). The driver is lost when nothing was heard for the timeout. After a
 /// loss, and at the start, messages must keep coming for the debounce time, and then one must say "stand
 /// still": so a stick that was held through the loss, or pushed before the robot could obey, does not start
-/// it. A start always answers a push. What is refused is counted and is no sign of life. A driver who says that
-/// he is gone is lost at once.
+/// it. A start always answers a push. What is refused is counted and is no sign of life. A driver who says
+/// that he is gone is lost at once.
 class Heartbeat {
  public:
   enum class State {

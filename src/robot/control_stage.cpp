@@ -49,8 +49,12 @@ void ControlStage::turn() {
   const Time now = clock_.now();
   const DriveOutput out = control_.step(now, inputs_);
   drive(out.power);
-  ports_.drive.put(
-      {now, clock_.now(), inputs_.command, out.verdict, out.applied, out.power, out.battery});
+  const auto& command = inputs_.command;
+  if (command && (command->seq != answered_.seq || command->heard != answered_.heard)) {
+    answered_ = *command;
+    answered_at_ = clock_.now();
+  }
+  ports_.drive.put({now, command, answered_at_, out.verdict, out.applied, out.power, out.battery});
   if (now >= counters_due_) {
     counters_due_ = now + kShowCountersEvery;
     ports_.drive_counters.put(control_.refused());

@@ -42,6 +42,8 @@ class ControlStage {
   const Latest<ImuSample>& imu_;
   DriveControl control_;
   DriveInputs inputs_;
+  DriveCommand answered_;
+  Time answered_at_;
   Time due_, motors_due_, counters_due_;
   DeviceHealth motors_health_, pins_health_;
 };

@@ -33,8 +33,8 @@ struct DeviceHealth {
 /// What is driven and why, after a tick of the control.
 struct DriveState {
   Time time;
-  Time driven;                          ///< when the motors had their power
   std::optional<DriveCommand> command;  ///< the newest that was known
+  Time driven;                          ///< when the motors first had the power that answers it
   Verdict verdict;
   Twist applied;
   WheelPower power;

@@ -172,5 +172,23 @@ TEST(Heartbeat, AfterAStopTheStickMustBeLetGo) {
   EXPECT_EQ(d.send(kStand), State::kAlive);
 }
 
+TEST(Heartbeat, ADriverWhoSaysThatHeIsGoneIsLostAtOnce) {
+  Driver d = driving();
+  ASSERT_EQ(d.heartbeat.wanted(), kForward);
+  d.ms += 10;
+  const DriveCommand farewell{++d.seq, {}, at_ms(d.ms), true};
+  EXPECT_EQ(d.heartbeat.update(at_ms(d.ms), farewell), State::kSilent);
+  EXPECT_EQ(d.heartbeat.wanted(), kStand);
+  EXPECT_EQ(d.heartbeat.reason(), "nobody is driving");
+  EXPECT_FALSE(d.heartbeat.deadline());
+  EXPECT_EQ(d.heartbeat.update(at_ms(d.ms + 20), farewell), State::kSilent);
+
+  d.seq = 0;  // another driver, who counts anew
+  d.ms += 20;
+  EXPECT_EQ(d.send_for(500, kForward), State::kUnsteady);
+  EXPECT_EQ(d.send(kForward), State::kHeld);
+  EXPECT_TRUE(d.heartbeat.refused().empty());
+}
+
 }  // namespace
 }  // namespace dynslam
