@@ -65,11 +65,15 @@ int run(int argc, char** argv) {
       ->capture_default_str();
   sim->add_option("--seed", sim_options.seed, "of the noise of everything")->capture_default_str();
   sim->add_option("--out", sim_options.out, "folder for map, trajectory, truth and report")->type_name("DIR");
-  sim->add_flag("--headless", sim_options.headless, "nobody looks on");
+  sim->add_flag("--headless", sim_options.headless, "serve nobody; goes on a tour");
   sim->add_option("--duration", sim_options.duration_s, "most of simulated time, in seconds")
       ->type_name("S")
       ->check(CLI::Range(0.1, 1e6));
-  sim->add_option("--mission", sim_options.mission, "what to do: tour")->capture_default_str();
+  sim->add_option("--mission", sim_options.mission, "what to do by itself: tour")->type_name("NAME");
+  sim->add_option("--port", sim_options.port,
+                  "where to serve, in place of server.port; 0: any port that is free")
+      ->type_name("N")
+      ->check(CLI::Range(0, 65535));
   common.add_to(*sim, "--config");
 
   CLI::App* check = app.add_subcommand(

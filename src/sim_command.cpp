@@ -17,6 +17,7 @@
 #include "robot/stage_clock.h"
 #include "robot/steady_memory.h"
 #include "robot/tour.h"
+#include "serve.h"
 #include "sim/simulator.h"
 
 namespace dynslam {
@@ -43,7 +44,8 @@ class TourMission {
         begin_(clock.now()),
         simulator_(std::make_shared<Simulator>(load_world(options.world), clock, options.seed)),
         robot_(make_devices(simulator_), {config.slam, config.drive, config.lidar.mount()}, clock),
-        tour_(points_map(simulator_->world())) {
+        tour_(points_map(simulator_->world())),
+        waits_(options.mission.empty() && !options.headless) {
     robot_.on_scan([this](const ScanResult& scan) {
       result.trajectory_live.push_back({scan.stamp, scan.map_T_robot});
       result.inserted += scan.inserted ? 1 : 0;
@@ -61,9 +63,10 @@ class TourMission {
     if (now >= next_truth_) fetch_truth(now);
     if (stop_signal != 0) return MissionEnd{"stopped", "asked to"};
     if (passed_s() >= limit_s()) return MissionEnd{"timeout", "the time is up"};
-    if (tour_.done()) return MissionEnd{"done", skipped_text()};
+    if (tour_.done() && !waits_) return MissionEnd{"done", skipped_text()};
     if (now < next_command_) return std::nullopt;
     next_command_ = now + kCommandEvery;
+    if (waits_ || (serving && serving->is_driven())) return std::nullopt;
     const auto world = robot_.ports().world.get().value;
     const auto drive = robot_.ports().drive.get().value;
     const Twist twist = world && drive ? tour_.next(now, world->pose, drive->verdict) : Twist{};
@@ -105,6 +108,7 @@ class TourMission {
   std::string world_svg() const { return to_svg(simulator_->world()); }
 
   MappingResult result;
+  std::optional<Serving> serving;  ///< ends before the robot does
 
  private:
   static constexpr double kLongest_s = 24 * 3600.0;
@@ -130,6 +134,7 @@ class TourMission {
   std::shared_ptr<Simulator> simulator_;
   Robot robot_;
   Tour tour_;
+  bool waits_;  ///< for a driver, for ever
   std::uint64_t seq_ = 0;
   std::vector<TruePose> truth_;
 };
@@ -174,7 +179,7 @@ void tell(const SimOptions& options, const nlohmann::json& mission, const Mappin
 int run_sim(const SimOptions& options, const Config& config) {
   keep_memory_steady();  // a robot runs for months; a replay is better off with memory that it need not ask
                          // for again
-  if (options.mission != "tour")
+  if (!options.mission.empty() && options.mission != "tour")
     throw InputError("--mission " + options.mission + ": there is only 'tour' so far");
   std::optional<OutputFolder> out;
   if (options.out) out.emplace(*options.out);
@@ -191,6 +196,11 @@ int run_sim(const SimOptions& options, const Config& config) {
     clock = std::move(steps);
   }
   TourMission mission(options, config, *clock);
+  if (!options.headless && options.speed <= 0)
+    throw InputError("--speed 0 knows no time in which to serve: it goes with --headless");
+  if (!options.headless)
+    mission.serving.emplace(mission.robot().ports(), *clock, config,
+                            ServeOptions{options.port, options.world});
   MissionEnd end;
   if (stepped) {
     ProgressBar bar(options.duration_s.has_value());
@@ -198,6 +208,7 @@ int run_sim(const SimOptions& options, const Config& config) {
   } else {
     end = run_live(mission, *clock);
   }
+  mission.serving.reset();
   const nlohmann::json figures = mission.finish(end);
   mission.result.wall_s = timer.wall_s();
   mission.result.cpu_s = timer.cpu_s();

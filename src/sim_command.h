@@ -16,7 +16,8 @@ struct SimOptions {
   std::optional<std::string> out;
   bool headless = false;
   std::optional<double> duration_s;  ///< most of simulated time
-  std::string mission = "tour";
+  std::string mission;               ///< "tour"; empty: waits for a driver, or with nobody looking on a tour
+  std::optional<int> port;           ///< to serve on, in place of the config's
 };
 
 /// `dynslam sim`: the whole robot with simulated hardware on a mission. Returns the exit code. Throws

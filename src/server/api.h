@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipe/clock.h"
+#include "robot/ports.h"
+#include "server/event_counters.h"
+#include "server/gate.h"
+#include "server/route_table.h"
+#include "server/wheel.h"
+
+namespace dynslam {
+
+/// What the program tells the server about itself.
+struct ServerFacts {
+  std::string version;
+  std::string config_json = "{}";   ///< without secrets
+  std::vector<std::string> worlds;  ///< of the simulator
+  std::string world;                ///< the one that is simulated; empty on a real robot
+  TwistLimits limits;
+};
+
+/// Where the autopilot is joined; while a function is empty the robot has none.
+struct AutopilotPort {
+  /// Sets out; returns why not, in a sentence, or nothing.
+  std::function<std::string(const Pose2& map_T_goal, bool yaw_matters)> go_to;
+  std::function<std::string(const std::string& mode)> set_mode;
+};
+
+/// The requests of web/openapi.yaml about the robot. Any thread.
+class Api {
+ public:
+  Api(Ports& ports, const Clock& clock, Gate& gate, Wheel& wheel, EventCounters& events, ServerFacts facts,
+      AutopilotPort autopilot);
+
+  void add_to(RouteTable& routes);
+  std::string state_text() const;
+  /// Connections that are open; known once the server runs.
+  std::function<std::size_t()> connections = [] { return std::size_t{0}; };
+
+ private:
+  using Handler = HttpAnswer (Api::*)(const HttpRequest&, const Visitor&);
+  void add(RouteTable& routes, const char* method, const char* path, Right needed, Handler handler);
+
+  HttpAnswer health(const HttpRequest&, const Visitor&);
+  HttpAnswer metrics(const HttpRequest&, const Visitor&);
+  HttpAnswer contract(const HttpRequest&, const Visitor&);
+  HttpAnswer state(const HttpRequest&, const Visitor&);
+  HttpAnswer devices(const HttpRequest&, const Visitor&);
+  HttpAnswer config(const HttpRequest&, const Visitor&);
+  HttpAnswer worlds(const HttpRequest&, const Visitor&);
+  HttpAnswer map_png(const HttpRequest&, const Visitor&);
+  HttpAnswer map_pgm(const HttpRequest&, const Visitor&);
+  HttpAnswer map_yaml(const HttpRequest&, const Visitor&);
+  HttpAnswer goal(const HttpRequest&, const Visitor&);
+  HttpAnswer mode(const HttpRequest&, const Visitor&);
+  HttpAnswer power_limit(const HttpRequest&, const Visitor&);
+  HttpAnswer stop(const HttpRequest&, const Visitor&);
+  HttpAnswer clear_stop(const HttpRequest&, const Visitor&);
+
+  Ports& ports_;
+  const Clock& clock_;
+  Gate& gate_;
+  Wheel& wheel_;
+  EventCounters& events_;
+  ServerFacts facts_;
+  AutopilotPort autopilot_;
+  Clock::SteadyTime begun_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace dynslam

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "server/server.h"
+
+#include <random>
+
+#include "server/control_channel.h"
+#include "server/embedded_files.h"
+
+namespace dynslam {
+namespace {
+
+constexpr std::string_view kSockets = "/api/v1/ws/";
+constexpr std::string_view kStop = "/api/v1/stop";
+
+/// Tells the maps of two runs apart; never 0.
+std::uint64_t new_map_id() {
+  std::random_device random;
+  return (std::uint64_t{random()} << 32 | random()) | 1U;
+}
+
+void add_page(RouteTable& routes, const char* path, const char* file, const char* type) {
+  routes.add("GET", path, [file, type](const HttpRequest&, const std::string&) {
+    HttpAnswer answer;
+    answer.type = type;
+    answer.body = embedded_file(file);
+    return answer;
+  });
+}
+
+Seats::Use use_of(const HttpRequest& request) {
+  if (request.path == kStop) return Seats::Use::kStop;
+  if (!request.path.starts_with(kSockets)) return Seats::Use::kRequest;
+  return request.path.substr(kSockets.size()) == "control" ? Seats::Use::kControl : Seats::Use::kWatch;
+}
+
+Seats::Limits limits_of(const ServerConfig& config) {
+  return {static_cast<std::size_t>(config.seats), static_cast<std::size_t>(config.seats_kept),
+          static_cast<std::size_t>(config.seats_per_address)};
+}
+
+}  // namespace
+
+Server::Server(Ports& ports, const Clock& clock, Gate& gate, const ServerConfig& config, ServerFacts facts,
+               AutopilotPort autopilot)
+    : ports_(ports),
+      clock_(clock),
+      gate_(gate),
+      wheel_(ports, clock, facts.limits),
+      api_(ports, clock, gate, wheel_, events_, std::move(facts), std::move(autopilot)),
+      state_feed_([this] { return api_.state_text(); }),
+      map_feed_(ports, clock, new_map_id()),
+      web_({config.bind, config.port, limits_of(config)}, handlers()) {
+  serving_ = &web_;
+}
+
+WebServer::Handlers Server::handlers() {
+  api_.connections = [this] {
+    const WebServer* web = serving_;
+    return web == nullptr ? std::size_t{0} : web->connections();
+  };
+  api_.add_to(routes_);
+  add_page(routes_, "/", "index.html", "text/html; charset=utf-8");
+  add_page(routes_, "/page.js", "page.js", "text/javascript; charset=utf-8");
+  add_page(routes_, "/page.css", "page.css", "text/css; charset=utf-8");
+  return {[this](const HttpRequest& request) { return routes_.answer(request); },
+          [this](const HttpRequest& request) { return open(request); }, use_of};
+}
+
+std::variant<std::unique_ptr<Channel>, HttpAnswer> Server::open(const HttpRequest& request) {
+  const std::string kind = request.path.substr(std::min(kSockets.size(), request.path.size()));
+  if (kind != "control" && kind != "state" && kind != "map" && kind != "video")
+    return error_answer(404, "there is no such WebSocket");
+  Gate::Decision decision = gate_.admit(request, Right::kViewer);
+  if (decision.refusal) return *decision.refusal;
+  Visitor& visitor = decision.visitor;
+  if (kind == "state") return std::make_unique<StateChannel>(state_feed_, std::move(visitor.still_allowed));
+  if (kind == "map") return std::make_unique<MapChannel>(map_feed_, std::move(visitor.still_allowed));
+  if (kind == "video") return std::make_unique<VideoChannel>(ports_, std::move(visitor.still_allowed));
+  return std::make_unique<ControlChannel>(wheel_, ports_, clock_, events_,
+                                          ControlClient{visitor.name, visitor.right >= Right::kDriver},
+                                          std::move(visitor.still_allowed));
+}
+
+}  // namespace dynslam

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <variant>
+
+#include "server/api.h"
+#include "server/feeds.h"
+#include "server/server_config.h"
+#include "server/web_server.h"
+
+namespace dynslam {
+
+/// The way in: HTTP and WebSockets between people and a robot's ports (web/openapi.yaml, web/wire.md). Serves
+/// from when it is made until it is destroyed, with threads of its own.
+class Server {
+ public:
+  /// All references must outlive this. Throws std::runtime_error, in one line, when it cannot listen.
+  Server(Ports& ports, const Clock& clock, Gate& gate, const ServerConfig& config, ServerFacts facts,
+         AutopilotPort autopilot = {});
+
+  int port() const { return web_.port(); }
+  /// Whether a person holds the wheel: then nobody else commands.
+  bool is_driven() const { return wheel_.holder(0).driver.has_value(); }
+
+ private:
+  WebServer::Handlers handlers();
+  std::variant<std::unique_ptr<Channel>, HttpAnswer> open(const HttpRequest& request);
+
+  Ports& ports_;
+  const Clock& clock_;
+  Gate& gate_;
+  EventCounters events_;
+  Wheel wheel_;
+  Api api_;
+  StateFeed state_feed_;
+  MapFeed map_feed_;
+  RouteTable routes_;
+  std::atomic<WebServer*> serving_{nullptr};
+  WebServer web_;  ///< the last: its threads use all the others
+};
+
+}  // namespace dynslam

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "base/counters.h"
+#include "robot/ports.h"
+
+namespace dynslam {
+
+/// The nearest return of a scan in each degree around the robot, centimetres; 0: none. Degree 0 is straight
+/// ahead, 90 to the left.
+std::array<std::uint16_t, 360> coarse_ranges_cm(const Scan& scan);
+
+/// What is told of the robot besides what its ports say.
+struct StateExtras {
+  Time now;
+  std::uint64_t scan_version = 0;
+  std::optional<std::string> driver;  ///< who holds the wheel
+  std::string recording;              ///< JSON; empty: null
+  Counters counters;                  ///< of the server
+};
+
+/// The state as web/openapi.yaml describes it.
+nlohmann::json state_json(const Ports& ports, const StateExtras& extras);
+
+/// How each device does, and what the robot's stages count.
+nlohmann::json devices_json(const Ports& ports);
+
+}  // namespace dynslam

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "server/wheel.h"
+
+#include <algorithm>
+
+namespace dynslam {
+
+Wheel::Client Wheel::enter() {
+  const std::lock_guard lock(mutex_);
+  return ++clients_;
+}
+
+void Wheel::leave(Client client) {
+  const std::lock_guard lock(mutex_);
+  if (holder_ == client) let_go();
+}
+
+bool Wheel::acquire(Client client, const std::string& name, bool take_over, SteadyTime now) {
+  const std::lock_guard lock(mutex_);
+  const bool held = holder_ != 0 && holder_ != client;
+  if (held && !take_over && now - heard_at_ < kHeldFor) return false;
+  if (held) let_go();
+  holder_ = client;
+  name_ = name;
+  heard_at_ = now;
+  return true;
+}
+
+void Wheel::release(Client client) { leave(client); }
+
+void Wheel::touch(Client client, SteadyTime now) {
+  const std::lock_guard lock(mutex_);
+  if (holder_ == client) heard_at_ = now;
+}
+
+std::optional<Wheel::Sent> Wheel::drive(Client client, const Twist& wanted) {
+  const std::lock_guard lock(mutex_);
+  if (client == 0 || holder_ != client) return std::nullopt;
+  note_answered();
+  return command({std::clamp(wanted.v_mps, -limits_.v_mps, limits_.v_mps),
+                  std::clamp(wanted.w_radps, -limits_.w_radps, limits_.w_radps)},
+                 false);
+}
+
+Wheel::Holder Wheel::holder(Client client) const {
+  const std::lock_guard lock(mutex_);
+  if (holder_ == 0) return {};
+  return {holder_ == client, name_};
+}
+
+std::optional<Wheel::Answered> Wheel::answered() {
+  const std::lock_guard lock(mutex_);
+  note_answered();
+  return answered_;
+}
+
+Wheel::Delays Wheel::delays() {
+  const std::lock_guard lock(mutex_);
+  note_answered();
+  return delays_;
+}
+
+/// A number no smaller than any that another commander may have used meanwhile.
+Wheel::Sent Wheel::command(const Twist& twist, bool gone) {
+  if (const auto last = ports_.command.get().value) seq_ = std::max(seq_, last->seq);
+  const Sent sent{++seq_, clock_.now()};
+  ports_.command.put({sent.seq, twist, sent.heard, gone});
+  return sent;
+}
+
+/// Each command counts once, the first time that its answer is seen.
+void Wheel::note_answered() {
+  const auto drive = ports_.drive.get().value;
+  if (!drive || !drive->command || drive->command->seq > seq_) return;
+  if (answered_ && drive->command->seq <= answered_->seq) return;
+  answered_ = Answered{drive->command->seq, drive->driven - drive->command->heard};
+  (drive->command->gone ? delays_.drop_to_off : delays_.command_to_motor).add(answered_->delay);
+}
+
+void Wheel::let_go() {
+  note_answered();
+  holder_ = 0;
+  command({}, true);
+}
+
+}  // namespace dynslam

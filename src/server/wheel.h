@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "pipe/clock.h"
+#include "robot/ports.h"
+#include "server/delay_histogram.h"
+
+namespace dynslam {
+
+/// The fastest that may be asked for.
+struct TwistLimits {
+  double v_mps = 2.2, w_radps = 3.0;
+};
+
+/// Between those who want to drive and the robot: one of them holds the wheel, and only he commands. What he
+/// commands is stamped with the robot's clock; when he is gone the robot stops. Any thread.
+class Wheel {
+ public:
+  using Client = std::uint64_t;
+  using SteadyTime = Clock::SteadyTime;
+  /// A holder who says nothing for so long may be relieved by anybody who may drive.
+  static constexpr std::chrono::seconds kHeldFor{10};
+
+  Wheel(Ports& ports, const Clock& clock, const TwistLimits& limits)
+      : ports_(ports), clock_(clock), limits_(limits) {}
+
+  /// A number for a client that may want to drive.
+  Client enter();
+  /// The client is gone: if it held the wheel, the robot stops at once and the wheel is free.
+  void leave(Client client);
+
+  /// Whether the client holds the wheel then: it was free, its own, forgotten, or is taken over.
+  bool acquire(Client client, const std::string& name, bool take_over, SteadyTime now);
+  void release(Client client);
+  /// The holder is still there.
+  void touch(Client client, SteadyTime now);
+
+  struct Sent {
+    std::uint64_t seq = 0;  ///< as the robot sees it
+    Time heard;
+  };
+  /// Commands the wanted, clamped, if the client holds the wheel. REQUIRES: finite.
+  std::optional<Sent> drive(Client client, const Twist& wanted);
+
+  struct Holder {
+    bool mine = false;
+    std::optional<std::string> driver;
+    bool operator==(const Holder&) const = default;
+  };
+  Holder holder(Client client) const;
+
+  struct Answered {
+    std::uint64_t seq = 0;  ///< as in Sent
+    Duration delay{};       ///< from when it was heard to the motors' power
+  };
+  /// The last command that the motors answered.
+  std::optional<Answered> answered();
+
+  struct Delays {
+    DelayHistogram command_to_motor, drop_to_off;
+  };
+  Delays delays();
+
+ private:
+  Sent command(const Twist& twist, bool gone);
+  void note_answered();
+  void let_go();
+
+  Ports& ports_;
+  const Clock& clock_;
+  TwistLimits limits_;
+  mutable std::mutex mutex_;
+  Client clients_ = 0, holder_ = 0;  ///< 0: nobody
+  std::string name_;
+  SteadyTime heard_at_;
+  std::uint64_t seq_ = 0;
+  std::optional<Answered> answered_;
+  Delays delays_;
+};
+
+}  // namespace dynslam

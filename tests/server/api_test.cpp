@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+#include "server/api.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "server/state_json.h"
+
+namespace dynslam {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// Lets everybody in as what is set.
+struct FixedGate : Gate {
+  Right right = Right::kAdmin;
+  Decision admit(const HttpRequest&, Right needed) override {
+    if (right < needed) return {error_answer(403, "not for you"), {}};
+    return {std::nullopt, {"Ada", right, {}}};
+  }
+};
+
+class ApiTest : public testing::Test {
+ protected:
+  explicit ApiTest(AutopilotPort autopilot = {})
+      : api(ports, clock, gate, wheel, events,
+            {"1.2.3", R"({"slam":{"cell_size_m":0.02}})", {"flat", "hall"}, "flat", {}},
+            std::move(autopilot)) {
+    api.add_to(routes);
+  }
+  HttpAnswer ask(const std::string& method, const std::string& path, const std::string& body = {}) {
+    HttpRequest request{method, path, {}, {}, body, "10.0.0.7"};
+    if (!body.empty()) request.headers["content-type"] = "application/json";
+    return routes.answer(request);
+  }
+  int status(const std::string& path, const std::string& body) { return ask("POST", path, body).status; }
+  void draw_map() {
+    ChunkedGrid grid(0.05);
+    for (int i = 0; i < 5; ++i) grid.add_hit({10, 10});
+    WorldState world;
+    world.map = grid.snapshot();
+    world.pose.quality = 0.5;
+    ports.world.put(world);
+  }
+
+  Ports ports;
+  SteppedClock clock{time_at_s(3)};
+  FixedGate gate;
+  EventCounters events;
+  Wheel wheel{ports, clock, {}};
+  Api api;
+  RouteTable routes;
+};
+
+TEST_F(ApiTest, KnowsWhatIsThereAndWhatMayBeDoneWithIt) {
+  EXPECT_EQ(ask("GET", "/healthz").status, 200);
+  EXPECT_EQ(ask("HEAD", "/healthz").status, 200);
+  EXPECT_EQ(ask("GET", "/health").status, 404);
+  EXPECT_EQ(ask("GET", "/healthz/").status, 404);
+  const HttpAnswer answer = ask("DELETE", "/api/v1/state");
+  EXPECT_EQ(answer.status, 405);
+  EXPECT_EQ(answer.headers.at(0), (std::pair<std::string, std::string>{"Allow", "GET"}));
+  EXPECT_THAT(json::parse(answer.body)["error"].get<std::string>(), HasSubstr("DELETE"));
+}
+
+TEST_F(ApiTest, AsksTheGateForEachRequest) {
+  const std::vector<std::tuple<const char*, const char*, Right>> needs = {
+      {"GET", "/healthz", Right::kAnyone},
+      {"GET", "/metrics", Right::kViewer},
+      {"GET", "/api/v1/openapi.yaml", Right::kViewer},
+      {"GET", "/api/v1/state", Right::kViewer},
+      {"GET", "/api/v1/devices", Right::kViewer},
+      {"GET", "/api/v1/config", Right::kViewer},
+      {"GET", "/api/v1/worlds", Right::kViewer},
+      {"GET", "/api/v1/map.png", Right::kViewer},
+      {"GET", "/api/v1/map.pgm", Right::kViewer},
+      {"GET", "/api/v1/map.yaml", Right::kViewer},
+      {"POST", "/api/v1/goal", Right::kDriver},
+      {"POST", "/api/v1/mode", Right::kDriver},
+      {"POST", "/api/v1/power_limit", Right::kDriver},
+      {"POST", "/api/v1/stop", Right::kAnyone},
+      {"POST", "/api/v1/clear_stop", Right::kDriver}};
+  for (const auto& [method, path, needed] : needs) {
+    for (const Right right : {Right::kAnyone, Right::kViewer, Right::kDriver, Right::kAdmin}) {
+      gate.right = right;
+      EXPECT_EQ(ask(method, path).status == 403, right < needed) << path << ' ' << static_cast<int>(right);
+    }
+  }
+}
+
+TEST_F(ApiTest, TellsAboutTheProgram) {
+  EXPECT_EQ(json::parse(ask("GET", "/healthz").body)["version"], "1.2.3");
+  EXPECT_EQ(json::parse(ask("GET", "/api/v1/config").body)["slam"]["cell_size_m"], 0.02);
+  EXPECT_EQ(json::parse(ask("GET", "/api/v1/worlds").body),
+            (json{{"worlds", {"flat", "hall"}}, {"current", "flat"}}));
+  EXPECT_THAT(ask("GET", "/api/v1/openapi.yaml").body, StartsWith("openapi: 3.1"));
+}
+
+TEST_F(ApiTest, GivesTheMapInEachFormAlsoWhenThereIsNone) {
+  for (const bool drawn : {false, true}) {
+    if (drawn) draw_map();
+    EXPECT_THAT(ask("GET", "/api/v1/map.png").body, StartsWith("\x89PNG"));
+    EXPECT_THAT(ask("GET", "/api/v1/map.pgm").body, StartsWith("P5"));
+    EXPECT_THAT(ask("GET", "/api/v1/map.yaml").body, HasSubstr("image: map.pgm"));
+  }
+}
+
+TEST_F(ApiTest, LooksAtAGoalClosely) {
+  draw_map();
+  const char* path = "/api/v1/goal";
+  EXPECT_EQ(ask("POST", path).status, 415);
+  EXPECT_EQ(status(path, "{"), 400);
+  EXPECT_EQ(status(path, "[1,2]"), 400);
+  EXPECT_EQ(status(path, R"({"x_m":1})"), 422);
+  EXPECT_EQ(status(path, R"({"x_m":"1","y_m":1})"), 422);
+  EXPECT_EQ(status(path, R"({"x_m":1,"y_m":NaN})"), 400);
+  EXPECT_EQ(status(path, R"({"x_m":1,"y_m":1e999})"), 400);
+  EXPECT_EQ(status(path, R"({"x_m":1,"y_m":1,"yaw_rad":null})"), 422);
+  EXPECT_EQ(status(path, R"({"x_m":1,"y_m":1,"fast":true})"), 422);
+  EXPECT_EQ(status(path, R"({"x_m":100,"y_m":1})"), 422) << "off the map";
+  EXPECT_EQ(status(path, R"({"x_m":-1e300,"y_m":1})"), 422);
+  EXPECT_EQ(status(path, R"({"x_m":1,"y_m":1,"yaw_rad":3})"), 501);
+  EXPECT_EQ(status("/api/v1/mode", R"({"mode":"explore"})"), 501);
+  EXPECT_EQ(status("/api/v1/mode", R"({"mode":"manual"})"), 204);
+  EXPECT_EQ(status("/api/v1/mode", R"({"mode":"dance"})"), 422);
+  EXPECT_EQ(status("/api/v1/mode", R"({"mode":3})"), 422);
+}
+
+TEST_F(ApiTest, SetsThePowerLimit) {
+  const char* path = "/api/v1/power_limit";
+  EXPECT_EQ(status(path, R"({"power_limit":0.25})"), 204);
+  EXPECT_EQ(ports.power_limit, 0.25);
+  for (const char* body :
+       {R"({"power_limit":-0.1})", R"({"power_limit":1.1})", R"({"power_limit":"1"})", "{}"})
+    EXPECT_EQ(status(path, body), 422) << body;
+  EXPECT_EQ(ports.power_limit, 0.25);
+}
+
+TEST_F(ApiTest, StopsAndClears) {
+  EXPECT_EQ(ask("POST", "/api/v1/stop").status, 204);
+  EXPECT_EQ(ports.stops.try_pop(), "Ada");
+  EXPECT_EQ(ask("POST", "/api/v1/clear_stop").status, 204);
+  EXPECT_TRUE(ports.clear_asked);
+}
+
+struct WithAutopilot : ApiTest {
+  WithAutopilot()
+      : ApiTest({[](const Pose2& goal, bool yaw_matters) {
+                   return goal.yaw == 0.5 && yaw_matters ? "" : "there is no way";
+                 },
+                 [](const std::string& mode) { return mode == "manual" ? "" : "it is lost"; }}) {}
+};
+
+TEST_F(WithAutopilot, GoalsAndModesReachIt) {
+  draw_map();
+  EXPECT_EQ(status("/api/v1/goal", R"({"x_m":1,"y_m":1,"yaw_rad":0.5})"), 204);
+  const HttpAnswer refusal = ask("POST", "/api/v1/goal", R"({"x_m":1,"y_m":1})");
+  EXPECT_EQ(refusal.status, 409);
+  EXPECT_EQ(json::parse(refusal.body)["error"], "there is no way");
+  EXPECT_EQ(status("/api/v1/mode", R"({"mode":"explore"})"), 409);
+  EXPECT_EQ(status("/api/v1/mode", R"({"mode":"manual"})"), 204);
+}
+
+TEST_F(ApiTest, StateIsWholeFromTheBeginning) {
+  const json empty = json::parse(ask("GET", "/api/v1/state").body);
+  for (const char* part : {"pose", "verdict", "scan", "battery", "driver", "recording"})
+    EXPECT_TRUE(empty.at(part).is_null()) << part;
+  draw_map();
+  DriveState drive;
+  drive.verdict = {Motion::kHold, "\xff is no UTF-8"};
+  drive.battery.level = BatteryLevel::kLow;
+  ports.drive.put(drive);
+  Scan scan;
+  scan.beams = {{0.0F, 1.0F, 0.0F}, {1.5708F, 2.0F, 0.0F}, {0.001F, 0.5F, 0.0F}};
+  ports.scan.put(scan);
+  const json state = json::parse(ask("GET", "/api/v1/state").body);
+  EXPECT_EQ(state["pose"]["quality"], 0.5);
+  EXPECT_EQ(state["verdict"]["motion"], "hold");
+  EXPECT_EQ(state["battery"]["level"], "low");
+  EXPECT_EQ(state["scan"]["seq"], 1);
+  EXPECT_EQ(state["scan"]["ranges_cm"][0], 50) << "the nearer one";
+  EXPECT_EQ(state["scan"]["ranges_cm"][90], 200);
+  EXPECT_EQ(state["scan"]["ranges_cm"][180], 0);
+}
+
+TEST(CoarseRanges, AreSeenFromTheRobotAndLeaveOutWhatIsNone) {
+  Scan scan;
+  scan.mount.robot_T_lidar = {0.0, 0.5, 0.0};
+  scan.mount.upside_down = true;
+  scan.beams = {{-1.5707963F, 1.0F, 0.0F},
+                {0.0F, std::numeric_limits<float>::infinity(), 0.0F},
+                {0.3F, std::numeric_limits<float>::quiet_NaN(), 0.0F},
+                {0.5F, 1e6F, 0.0F}};
+  const auto ranges = coarse_ranges_cm(scan);
+  EXPECT_EQ(ranges[90], 150);
+  int returns = 0;
+  for (const auto cm : ranges) returns += cm > 0 ? 1 : 0;
+  EXPECT_EQ(returns, 1);
+}
+
+TEST_F(ApiTest, MetricsAndDevicesNameWhatIsWrong) {
+  draw_map();
+  ports.drive.put(DriveState{});
+  ports.lidar_health.put({true, 12, 3, time_at_s(2), "it \"hangs\"\n"});
+  Counters slam;
+  slam.add("front_end.no_match", 4);
+  ports.slam_counters.put(slam);
+  events.add("server.stops");
+  const std::string text = ask("GET", "/metrics").body;
+  for (const char* line :
+       {"dynslam_device_errors_total{device=\"lidar\"} 3\n", "dynslam_device_ok{device=\"lidar\"} 0\n",
+        "dynslam_events_total{event=\"front_end.no_match\"} 4\n",
+        "dynslam_events_total{event=\"server.stops\"} 1\n", "dynslam_pose_quality 0.5\n",
+        "dynslam_verdict 3\n", "dynslam_command_to_motor_seconds_count 0\n", "dynslam_connections 0\n"})
+    EXPECT_THAT(text, HasSubstr(line));
+  const json devices = json::parse(ask("GET", "/api/v1/devices").body);
+  EXPECT_EQ(devices["devices"]["lidar"]["errors"], 3);
+  EXPECT_EQ(devices["devices"]["camera"]["present"], false);
+  EXPECT_EQ(devices["counters"]["front_end.no_match"], 4);
+}
+
+TEST(RouteTable, TakesOneNameOutOfAPath) {
+  RouteTable routes;
+  routes.add("GET", "/r/{}/file", [](const HttpRequest&, const std::string& name) {
+    HttpAnswer answer;
+    answer.body = name;
+    return answer;
+  });
+  const auto ask = [&](const std::string& path) { return routes.answer({"GET", path, {}, {}, {}, {}}); };
+  EXPECT_EQ(ask("/r/a.mcap/file").body, "a.mcap");
+  for (const char* path : {"/r//file", "/r/file", "/r/a/b/file", "/r/a/files", "/r/../../file"})
+    EXPECT_EQ(ask(path).status, 404) << path;
+}
+
+TEST(DelayHistogram, CountsInCumulativeBuckets) {
+  DelayHistogram delays;
+  delays.add(std::chrono::milliseconds(12));
+  delays.add(std::chrono::milliseconds(500));
+  const std::string text = delays.text("x_seconds", "of x");
+  for (const char* line :
+       {"# TYPE dynslam_x_seconds histogram\n", "_bucket{le=\"0.01\"} 0\n", "_bucket{le=\"0.015\"} 1\n",
+        "_bucket{le=\"0.2\"} 1\n", "_bucket{le=\"+Inf\"} 2\n", "_sum 0.512\n", "_count 2\n"})
+    EXPECT_THAT(text, HasSubstr(line));
+}
+
+}  // namespace
+}  // namespace dynslam
