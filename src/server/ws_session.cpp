@@ -16,6 +16,7 @@ namespace {
 /// The system keeps about this much for a client that does not keep up: little, as it gets old there.
 constexpr int kSendBuffer = 128 * 1024;
 constexpr std::chrono::seconds kLongestNap{1};
+constexpr std::chrono::duration<int, std::milli> kFarewell{300};
 
 bool would_block() { return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR; }
 
@@ -49,7 +50,7 @@ void WsSession::run(const std::atomic<bool>& stopping) {
     if (stopping) continue;
     if (ready > 0 && (watched.revents & (POLLIN | POLLHUP | POLLERR)) != 0) open = receive(now);
   }
-  shutdown(socket_, SHUT_RDWR);
+  farewell();
 }
 
 /// Takes the next thing to send, once all before it is out.
@@ -111,6 +112,18 @@ bool WsSession::handle(const WsMessage& message, SteadyTime now) {
   }
   const auto closing = channel_.take(message, now);
   return !closing || close(*closing);
+}
+
+/// Ends the connection. What the client is still saying is heard for a moment, or the system would throw away
+/// what was said to it last.
+void WsSession::farewell() {
+  shutdown(socket_, SHUT_WR);
+  const SteadyTime end = std::chrono::steady_clock::now() + kFarewell;
+  std::array<char, 16384> bytes;
+  pollfd watched{socket_, POLLIN, 0};
+  while (std::chrono::steady_clock::now() < end && poll(&watched, 1, kFarewell.count()) > 0)
+    if (recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT) <= 0) break;
+  shutdown(socket_, SHUT_RDWR);
 }
 
 WsSession::SteadyTime WsSession::wake_at() const {

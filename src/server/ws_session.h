@@ -35,6 +35,7 @@ class WsSession {
   bool handle(const WsMessage& message, SteadyTime now);
   SteadyTime wake_at() const;
   bool close(const WsClosing& closing);
+  void farewell();
 
   int socket_;
   Channel& channel_;

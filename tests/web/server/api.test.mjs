@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { checkAnswer, contract, operations, takesBody } from "./contract.mjs";
+import { Robot, sleep, until } from "./robot.mjs";
+
+let robot;
+before(async () => {
+  robot = await Robot.start();
+  await until(async () => (await robot.json("/api/v1/state")).pose, "a pose");
+});
+after(() => robot.stop());
+
+const ask = async (method, path, body, headers) =>
+  checkAnswer(method, path, await robot.fetch(path, {
+    method: method.toUpperCase(),
+    headers: { ...(body === undefined ? {} : { "content-type": "application/json" }), ...headers },
+    body: body === undefined ? undefined : JSON.stringify(body),
+  }));
+
+test("the first page is served soon after the start", () => {
+  console.log(`start to address: ${robot.startMs.toFixed(0)} ms`);
+  assert.ok(robot.startMs < 2000);
+});
+
+test("each operation without a body answers as the contract says", async () => {
+  const plain = operations.filter(([method, path]) => method === "get" && !path.includes("{"));
+  assert.ok(plain.length >= 10);
+  for (const [method, path] of plain) assert.notEqual(await ask(method, path), "", path);
+});
+
+test("the contract itself is served", async () => {
+  const text = await (await robot.fetch("/api/v1/openapi.yaml")).text();
+  assert.ok(text.startsWith("openapi: 3.1"));
+  assert.equal(contract.openapi, "3.1.0");
+});
+
+test("the map comes as picture, for ROS, and described", async () => {
+  const png = await ask("get", "/api/v1/map.png");
+  assert.deepEqual([...png.subarray(0, 4)], [0x89, 0x50, 0x4e, 0x47]);
+  const pgm = await ask("get", "/api/v1/map.pgm");
+  const [, width, height] = /^P5\s(\d+) (\d+)\s255\s/.exec(pgm.toString("latin1"));
+  assert.ok(width > 50 && height > 50);
+  assert.match((await ask("get", "/api/v1/map.yaml")).toString(), /^image: map.pgm\n(.*\n)*resolution: 0.02\n/);
+});
+
+const goals = [
+  [{ x_m: 0.2, y_m: 0.1 }, 501],
+  [{ x_m: 0.2, y_m: 0.1, yaw_rad: 1 }, 501],
+  [{ x_m: 1000, y_m: 0 }, 422],
+  [{ x_m: -1e308, y_m: 0 }, 422],
+  [{ x_m: "1", y_m: 0 }, 422],
+  [{ x_m: 1 }, 422],
+  [{ x_m: null, y_m: 0 }, 422],
+  [{ x_m: 1, y_m: 1, z_m: 1 }, 422],
+  [{ x_m: 1, y_m: 1, yaw_rad: "north" }, 422],
+];
+test("goals are looked at closely", async () => {
+  for (const [goal, status] of goals) {
+    const answer = await robot.post("/api/v1/goal", goal);
+    assert.equal(answer.status, status, JSON.stringify(goal));
+    await checkAnswer("post", "/api/v1/goal", answer);
+    if (!takesBody("post", "/api/v1/goal", goal)) assert.equal(status, 422);
+  }
+});
+
+test("whatever the contract does not take for a body is refused, and the rest is not", async () => {
+  const bodies = [{}, { mode: "manual" }, { mode: "explore" }, { mode: "fly" }, { mode: 1 }, { power_limit: 0.5 },
+    { power_limit: 2 }, { power_limit: -1 }, { power_limit: "1" }, { power_limit: 0.5, more: 1 }];
+  for (const path of ["/api/v1/mode", "/api/v1/power_limit"]) {
+    for (const body of bodies) {
+      const answer = await robot.post(path, body);
+      assert.equal(answer.status === 422, !takesBody("post", path, body), `${path} ${JSON.stringify(body)} ${answer.status}`);
+      await checkAnswer("post", path, answer);
+    }
+  }
+  assert.equal((await robot.json("/api/v1/state")).power_limit, 0.5);
+});
+
+test("bodies that are no JSON are refused in words", async () => {
+  for (const [type, body, status] of [["application/json", "{", 400], ["application/json", '{"x_m":NaN}', 400],
+    ["application/json", "[]", 400], ["text/plain", "{}", 415], ["application/json", "x".repeat(17000), 413]]) {
+    const answer = await robot.fetch("/api/v1/goal", { method: "POST", headers: { "content-type": type }, body });
+    assert.equal(answer.status, status, body.slice(0, 20));
+    await checkAnswer("post", "/api/v1/goal", answer);
+  }
+});
+
+test("STOP needs nothing, is latched, and can be cleared", async () => {
+  const raw = await robot.rawAnswer(`POST /api/v1/stop HTTP/1.1\r\nHost: ${robot.host}\r\n\r\n`);
+  assert.match(raw, /^HTTP\/1.1 204/);
+  await until(async () => (await robot.json("/api/v1/state")).verdict.motion === "e-stop", "the stop");
+  assert.equal(await ask("post", "/api/v1/clear_stop"), undefined);
+  await until(async () => (await robot.json("/api/v1/state")).verdict.motion !== "e-stop", "the stop to be cleared");
+});
+
+test("what is not there is 404, and what cannot be done with it 405", async () => {
+  for (const path of ["/api/v1/", "/api/v2/state", "/etc/passwd", "/api/v1/state/..", "/api/v1/ws/state"]) {
+    const answer = await robot.fetch(path);
+    assert.equal(answer.status, 404, path);
+    assert.ok((await answer.json()).error);
+  }
+  for (const [, path] of operations.filter(([, p]) => !p.includes("{"))) {
+    const answer = await robot.fetch(path, { method: "PATCH" });
+    assert.equal(answer.status, 405, path);
+    assert.ok(answer.headers.get("allow").length > 2);
+  }
+});
+
+test("paths lead nowhere but where they say", async () => {
+  for (const path of ["/../../../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "//etc/passwd", "/page.js/../../etc/passwd",
+    "/..%2f..%2fetc%2fpasswd", "/./page.jsx", "/CMakeLists.txt", "/web/openapi.yaml"]) {
+    const raw = await robot.rawAnswer(`GET ${path} HTTP/1.1\r\nHost: ${robot.host}\r\n\r\n`);
+    assert.match(raw, /^HTTP\/1.1 4\d\d/, path);
+    assert.doesNotMatch(raw, /root:|cmake_minimum/, path);
+  }
+});
+
+test("the page stands alone", async () => {
+  const page = await robot.fetch("/");
+  assert.match(page.headers.get("content-type"), /text\/html/);
+  const text = await page.text();
+  assert.doesNotMatch(text, /https?:\/\//);
+  for (const [, file] of text.matchAll(/(?:src|href)="([^":]+)"/g)) assert.equal((await robot.fetch("/" + file)).status, 200, file);
+});
+
+test("a port that is taken ends the program with one line", async () => {
+  await assert.rejects(Robot.start("--port", String(robot.port)), (error) => {
+    assert.match(error.message, /^dynslam: .*port \d+ is taken; .*\n$/);
+    return true;
+  });
+});
+
+test("the program ends soon after it is asked to, whoever is there", async () => {
+  const other = await Robot.start();
+  const sockets = await Promise.all(["state", "video", "map", "control"].map((kind) => other.open(kind)));
+  const idle = await other.raw();
+  const began = Date.now();
+  assert.equal(await other.stop("SIGINT"), 0);
+  console.log(`asked to end until ended: ${Date.now() - began} ms`);
+  assert.ok(Date.now() - began < 5000);
+  await sleep(50);
+  for (const socket of sockets) assert.equal(socket.closedWith.code, 1001);
+  idle.destroy();
+});
