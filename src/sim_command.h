@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "config.h"
 
@@ -17,6 +18,8 @@ struct SimOptions {
   bool headless = false;
   std::optional<double> duration_s;  ///< most of simulated time
   std::string mission = "tour";
+  int laps = 1;                            ///< how often the tour is driven
+  std::vector<std::string> faults, kicks;  ///< see sim/disturbance.h
 };
 
 /// `dynslam sim`: the whole robot with simulated hardware on a mission. Returns the exit code. Throws

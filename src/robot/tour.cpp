@@ -21,8 +21,11 @@ Tour::Tour(std::vector<Vector2> points_map, const TourConfig& config)
     : points_(std::move(points_map)), config_(config) {}
 
 Twist Tour::next(Time now, const PoseEstimate& pose, const Verdict& verdict) {
+  if (done() || gave_up_) return {};
   // A driver whose command was cut off lets go before he pushes again.
-  if (done() || pose.lost || verdict.motion >= Motion::kStop) return {};
+  if (verdict.motion >= Motion::kStop) return wait(now, verdict.reason, 0.0);
+  if (pose.lost) return wait(now, "lost", config_.look_round_radps);
+  held_up_at_.reset();
   const double away_m = (points_[at_] - pose.map_T_robot.translation()).norm();
   if (away_m < config_.arrived_m) {
     leave_point(true);
@@ -36,6 +39,14 @@ Twist Tour::next(Time now, const PoseEstimate& pose, const Verdict& verdict) {
     return {};
   }
   return towards(points_[at_], pose.map_T_robot);
+}
+
+/// Until it may go on, or its patience ends.
+Twist Tour::wait(Time now, const std::string& trouble, double turn_radps) {
+  nearer_at_.reset();  // the point is not to blame
+  if (!held_up_at_) held_up_at_ = now;
+  if (now - *held_up_at_ > from_seconds(config_.patience_s)) gave_up_ = trouble;
+  return {0.0, gave_up_ ? 0.0 : turn_radps};
 }
 
 Twist Tour::towards(const Vector2& point, const Pose2& map_T_robot) const {

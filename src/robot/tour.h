@@ -17,6 +17,8 @@ struct TourConfig {
   double turn_radps = 1.2;
   double arrived_m = 0.2;        ///< this near to a point it is reached
   double blocked_skip_s = 12.0;  ///< a point that cannot be neared for so long is left out
+  double patience_s = 60.0;      ///< lost or stopped for so long without a break, it gives up
+  double look_round_radps = 0.6;
 };
 
 /// Drives from point to point as a person would who sees the map: by commands, through everything that guards
@@ -29,10 +31,13 @@ class Tour {
   Twist next(Time now, const PoseEstimate& pose, const Verdict& verdict);
 
   bool done() const { return at_ >= points_.size(); }
+  /// Why it goes no further, once it gave up.
+  const std::optional<std::string>& gave_up() const { return gave_up_; }
   std::size_t reached() const { return reached_; }
   std::size_t skipped() const { return skipped_; }
 
  private:
+  Twist wait(Time now, const std::string& trouble, double turn_radps);
   Twist towards(const Vector2& point, const Pose2& map_T_robot) const;
   void leave_point(bool reached);
 
@@ -40,7 +45,9 @@ class Tour {
   TourConfig config_;
   std::size_t at_ = 0, reached_ = 0, skipped_ = 0;
   double nearest_m_ = 0.0;
-  std::optional<Time> nearer_at_;  ///< when it came nearer to the point last
+  std::optional<Time> nearer_at_;   ///< when it came nearer to the point last
+  std::optional<Time> held_up_at_;  ///< since then it is lost or stopped
+  std::optional<std::string> gave_up_;
 };
 
 }  // namespace dynslam

@@ -37,12 +37,34 @@ TEST(Tour, GoesFromPointToPointAndEnds) {
   EXPECT_EQ(tour.reached(), 2U);
 }
 
-TEST(Tour, LetsGoWhileItIsStoppedOrLost) {
+TEST(Tour, LetsGoWhileItIsStopped) {
   Tour tour({{3, 0}});
   EXPECT_EQ(tour.next(time_at_s(0), at(0, 0, 0), {Motion::kStop, "no lidar data"}), Twist{});
+}
+
+TEST(Tour, GivesUpWhatLastsTooLong) {
+  Tour tour({{3, 0}}, {.patience_s = 10.0});
+  const Verdict stop{Motion::kStop, "no lidar data"};
+  tour.next(time_at_s(0), at(0, 0, 0), stop);
+  tour.next(time_at_s(9), at(0, 0, 0), stop);
+  EXPECT_GT(tour.next(time_at_s(9.5), at(0, 0, 0), kGo).v_mps, 0.0) << "it may go on";
+  tour.next(time_at_s(10), at(0, 0, 0), stop);
+  tour.next(time_at_s(20), at(0, 0, 0), stop);
+  EXPECT_FALSE(tour.gave_up());
+  tour.next(time_at_s(20.1), at(0, 0, 0), stop);
+  EXPECT_EQ(tour.gave_up(), "no lidar data");
+  EXPECT_EQ(tour.next(time_at_s(21), at(0, 0, 0), kGo), Twist{});
+}
+
+TEST(Tour, LooksRoundWhenLost) {
+  Tour tour({{3, 0}}, {.patience_s = 10.0});
   PoseEstimate lost = at(0, 0, 0);
   lost.lost = true;
-  EXPECT_EQ(tour.next(time_at_s(0), lost, kGo), Twist{});
+  const Twist t = tour.next(time_at_s(0), lost, kGo);
+  EXPECT_EQ(t.v_mps, 0.0);
+  EXPECT_GT(t.w_radps, 0.1);
+  EXPECT_EQ(tour.next(time_at_s(11), lost, kGo), Twist{});
+  EXPECT_EQ(tour.gave_up(), "lost");
 }
 
 TEST(Tour, LeavesOutWhatItCannotReach) {
