@@ -11,7 +11,10 @@
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
+#include "io/byte_source.h"
 #include "progress_bar.h"
+#include "tools/jitter/trajectory_error.h"
+#include "tools/jitter/tum_file.h"
 
 namespace dynslam {
 namespace {
@@ -202,6 +205,23 @@ TEST_F(CommandLine, SimulatesAMissionTwiceTheSame) {
   EXPECT_EQ(mission["kicks"], 0);
   EXPECT_GT(mission["reachable_floor_mapped"].get<double>(), 0.7);
   EXPECT_LE(mission["reachable_floor_mapped"].get<double>(), 1.0);
+}
+
+/// A flat with a person and doors that open and close, and a world by somebody who knew only the page about
+/// world files.
+TEST_F(CommandLine, KnowsWhereTheSimulatedRobotIs) {
+  const auto path = [&](const char* name) {
+    FileSource source(folder_ / "out" / name);
+    return jitter::read_tum(source);
+  };
+  for (const std::string world : {"apartment", DYNSLAM_SOURCE_DIR "/tests/data/worlds/clinic.toml"}) {
+    const Outcome o = dynslam("sim --headless --speed 0 --duration 60 --seed 4 --world " + world + " --out " +
+                              (folder_ / "out").string());
+    ASSERT_EQ(o.code, 0) << o.err;
+    const auto truth = path("truth.tum"), known = path("trajectory.tum");
+    EXPECT_GT(known.size(), 550U) << world;
+    EXPECT_LT(jitter::absolute_error_m(known, truth), 0.03) << world;
+  }
 }
 
 TEST_F(CommandLine, SimulatesWhatGoesWrong) {
