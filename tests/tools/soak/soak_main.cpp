@@ -17,7 +17,8 @@
 #include "sim/simulator.h"
 
 #ifdef __SANITIZE_ADDRESS__
-#include <sanitizer/allocator_interface.h>
+// Of the sanitizer's allocator_interface.h, which GCC does not install.
+extern "C" std::size_t __sanitizer_get_current_allocated_bytes();  // NOLINT
 #endif
 
 namespace dynslam::soak {
