@@ -94,8 +94,9 @@ void TourMission::fetch_truth(Time now) {
 }
 
 std::string TourMission::skipped_text() const {
-  return tour_.skipped() == 0 ? "all points reached"
-                              : std::to_string(tour_.skipped()) + " points could not be reached";
+  if (tour_.skipped() == 0) return "all points reached";
+  return std::to_string(tour_.skipped()) + (tour_.skipped() == 1 ? " point" : " points") +
+         " could not be reached";
 }
 
 /// The share of the floor that the robot could have driven over, and that its map shows as free.
