@@ -75,6 +75,14 @@ step_asan() {
   build/asan/src/dynslam replay "$recording" --set slam.trusted_range_m=30 --out "$out" --quiet
 }
 
+# Half an hour of a robot's life, step by step: memory must not grow.
+step_soak() {
+  need_to_build
+  quietly cmake --preset asan
+  quietly cmake --build --preset asan --target dynslam_soak
+  build/asan/tests/tools/soak/dynslam_soak --minutes 30
+}
+
 step_format() {
   # Another release of clang-format would lay out some lines in another way.
   need clang-format-14 || skip "clang-format 14 is to be had on Debian 12"
@@ -97,6 +105,7 @@ step_tsan() {
   build tsan
   # Its shadow memory leaves no room for addresses as random as some kernels make them.
   run_tests build/tsan setarch --addr-no-randomize
+  setarch --addr-no-randomize build/tsan/src/dynslam sim --headless --duration 120
 }
 
 step_coverage() {

@@ -74,6 +74,17 @@ int run(int argc, char** argv) {
                   "where to serve, in place of server.port; 0: any port that is free")
       ->type_name("N")
       ->check(CLI::Range(0, 65535));
+  sim->add_option("--laps", sim_options.laps, "how often to drive the tour")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  sim->add_option("--fault", sim_options.faults,
+                  "a device that fails, from when to when in seconds: lidar:unplugged:10:15")
+      ->type_name("DEVICE:KIND:FROM[:UNTIL]")
+      ->allow_extra_args(false);
+  sim->add_option("--kick", sim_options.kicks,
+                  "somebody carries the robot off, as seen from it in metres and degrees: 30:1:0:90")
+      ->type_name("AT:FORWARD:LEFT[:TURN]")
+      ->allow_extra_args(false);
   common.add_to(*sim, "--config");
 
   CLI::App* check = app.add_subcommand(

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "config.h"
 
@@ -18,6 +19,8 @@ struct SimOptions {
   std::optional<double> duration_s;  ///< most of simulated time
   std::string mission;               ///< "tour"; empty: waits for a driver, or with nobody looking on a tour
   std::optional<int> port;           ///< to serve on, in place of the config's
+  int laps = 1;                      ///< how often the tour is driven
+  std::vector<std::string> faults, kicks;  ///< see sim/disturbance.h
 };
 
 /// `dynslam sim`: the whole robot with simulated hardware on a mission. Returns the exit code. Throws

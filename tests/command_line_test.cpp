@@ -11,7 +11,10 @@
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
+#include "io/byte_source.h"
 #include "progress_bar.h"
+#include "tools/jitter/trajectory_error.h"
+#include "tools/jitter/tum_file.h"
 
 namespace dynslam {
 namespace {
@@ -199,12 +202,48 @@ TEST_F(CommandLine, SimulatesAMissionTwiceTheSame) {
   EXPECT_NEAR(mission["time_s"].get<double>(), 12.0, 0.02);
   EXPECT_GT(mission["distance_m"].get<double>(), 1.0);
   EXPECT_EQ(mission["contacts"], 0);
+  EXPECT_EQ(mission["kicks"], 0);
+  EXPECT_GT(mission["reachable_floor_mapped"].get<double>(), 0.7);
+  EXPECT_LE(mission["reachable_floor_mapped"].get<double>(), 1.0);
+}
+
+/// A flat with a person and doors that open and close, and a world by somebody who knew only the page about
+/// world files.
+TEST_F(CommandLine, KnowsWhereTheSimulatedRobotIs) {
+  const auto path = [&](const char* name) {
+    FileSource source(folder_ / "out" / name);
+    return jitter::read_tum(source);
+  };
+  for (const std::string world : {"apartment", DYNSLAM_SOURCE_DIR "/tests/data/worlds/clinic.toml"}) {
+    const Outcome o = dynslam("sim --headless --speed 0 --duration 60 --seed 4 --world " + world + " --out " +
+                              (folder_ / "out").string());
+    ASSERT_EQ(o.code, 0) << o.err;
+    const auto truth = path("truth.tum"), known = path("trajectory.tum");
+    EXPECT_GT(known.size(), 550U) << world;
+    EXPECT_LT(jitter::absolute_error_m(known, truth), 0.03) << world;
+  }
+}
+
+TEST_F(CommandLine, SimulatesWhatGoesWrong) {
+  const std::string out = (folder_ / "out").string();
+  const Outcome o =
+      dynslam("sim --world empty --headless --speed 0 --kick 3:0.5:0 --fault lidar:unplugged:4 --out " + out);
+  EXPECT_EQ(o.code, 1) << "a tour without a lidar fails: " << o.out;
+  const auto mission = nlohmann::json::parse(contents(folder_ / "out" / "report.json"))["mission"];
+  EXPECT_EQ(mission["result"], "stopped");
+  EXPECT_THAT(mission["reason"].get<std::string>(), HasSubstr("lidar"));
+  EXPECT_LT(mission["time_s"].get<double>(), 120.0);
+  EXPECT_EQ(mission["kicks"], 1);
+  EXPECT_EQ(mission["contacts"], 0);
 }
 
 TEST_F(CommandLine, NamesWhatIsWrongWithASimulation) {
   expect_one_line(dynslam("sim --world nowhere --speed 0"), 2, "nowhere");
   expect_one_line(dynslam("sim --mission fly --speed 0"), 2, "fly");
   expect_one_line(dynslam("sim --speed -1"), 2, "--speed");
+  expect_one_line(dynslam("sim --speed 0 --laps 0"), 2, "--laps");
+  expect_one_line(dynslam("sim --speed 0 --fault lidar:broken:1"), 2, "lidar:broken:1");
+  expect_one_line(dynslam("sim --speed 0 --kick 1"), 2, "AT:FORWARD:LEFT");
   const std::string world = file("bad.toml", "name = \"bad\"\nstart = { at = [1, 1] }\nwals = []\n");
   const Outcome o = dynslam("sim --speed 0 --world " + world);
   EXPECT_EQ(o.code, 2);

@@ -60,8 +60,10 @@ SafetyInputs DriveControl::safety_inputs(const DriveInputs& in, const Twist& twi
   safety.twist = twist;
   if (heartbeat_.state() != Heartbeat::State::kAlive) safety.driver_missing = heartbeat_.reason();
   safety.scan = in.scan;
+  safety.has_imu = in.has_imu;
   safety.imu = in.imu;
   safety.motors = in.motors;
+  safety.has_estop = in.has_estop;
   safety.pins = in.pins;
   safety.stop_asked = in.stop_asked;
   safety.clear_asked = in.clear_asked;

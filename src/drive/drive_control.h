@@ -19,12 +19,14 @@ namespace dynslam {
 struct DriveInputs {
   std::optional<DriveCommand> command;  ///< a person's or the autopilot's
   std::shared_ptr<const Scan> scan;
-  std::optional<ImuSample> imu;               ///< none ever: the robot has none
+  bool has_imu = false;  ///< there is one, though it may not have spoken yet
+  std::optional<ImuSample> imu;
   std::optional<Stamped<MotorState>> motors;  ///< as last read
-  std::optional<Stamped<PinState>> pins;      ///< none ever: the robot has no e-stop
-  double power_limit = 1.0;                   ///< the user's, 0 to 1: scales what is commanded
-  std::optional<std::string> stop_asked;      ///< by whom or why; one tick is enough
-  bool clear_asked = false;                   ///< a person clears stops; for one tick
+  bool has_estop = false;                     ///< there is one, though it may not have been read yet
+  std::optional<Stamped<PinState>> pins;
+  double power_limit = 1.0;               ///< the user's, 0 to 1: scales what is commanded
+  std::optional<std::string> stop_asked;  ///< by whom or why; one tick is enough
+  bool clear_asked = false;               ///< a person clears stops; for one tick
 };
 
 struct DriveOutput {

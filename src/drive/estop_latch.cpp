@@ -18,8 +18,9 @@ void EStopLatch::take(const Stamped<PinState>& pins) {
   if (!pressed_ && (!released_since_ || gap)) released_since_ = pins.stamp;
 }
 
-Finding EStopLatch::update(Time now, const std::optional<Stamped<PinState>>& pins, bool clear_asked) {
-  exists_ = exists_ || pins;
+Finding EStopLatch::update(Time now, const std::optional<Stamped<PinState>>& pins, bool exists,
+                           bool clear_asked) {
+  exists_ = exists_ || exists || pins;
   if (pins && pins->stamp <= now + kStampJitter) take(*pins);
   if (pins && pins->value.estop_pressed) {  // whatever its stamp
     latched_ = pressed_ = true;

@@ -18,8 +18,8 @@ class EStopLatch {
   explicit EStopLatch(const SafetyConfig& config)
       : release_(from_seconds(config.release_s)), timeout_(from_seconds(config.pins_timeout_s)) {}
 
-  /// `pins` is the newest reading; none ever means that there is no button.
-  Finding update(Time now, const std::optional<Stamped<PinState>>& pins, bool clear_asked);
+  /// `pins` is the newest reading; `exists` says that there is a button, though it may never have been read.
+  Finding update(Time now, const std::optional<Stamped<PinState>>& pins, bool exists, bool clear_asked);
   void clock_went_back();
 
  private:

@@ -61,9 +61,9 @@ void ImuWatch::take(const ImuSample& imu) {
   contrary_since_.reset();
 }
 
-Finding ImuWatch::update(Time now, const std::optional<ImuSample>& imu, bool moving) {
+Finding ImuWatch::update(Time now, const std::optional<ImuSample>& imu, bool exists, bool moving) {
   if (imu && is_news(now, *imu)) take(*imu);
-  if (imu && !heard_) heard_ = now;
+  if ((imu || exists) && !heard_) heard_ = now;
   if (!moving && !frozen_) same_since_ = now;
   if (newest_ && newest_->stamp - same_since_ > timeout_) frozen_ = true;
   Finding imu_row = lost(now);

@@ -19,8 +19,9 @@ class ImuWatch {
         tilt_time_(from_seconds(config.tilt_s)),
         tilt_limit_rad_(config.tilt_limit_rad) {}
 
-  /// `imu` is the newest sample, `moving` whether the robot is driven. Returns the worst of both rows.
-  Finding update(Time now, const std::optional<ImuSample>& imu, bool moving);
+  /// `imu` is the newest sample, `exists` says that there is an IMU, though it may never have spoken,
+  /// `moving` whether the robot is driven. Returns the worst of both rows.
+  Finding update(Time now, const std::optional<ImuSample>& imu, bool exists, bool moving);
   void clock_went_back();
 
   /// Whether the IMU was there and does not tell any more.

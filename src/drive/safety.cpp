@@ -44,10 +44,10 @@ Decision Safety::decide(Time now, const SafetyInputs& in) {
     if (row.verdict.motion > worst.verdict.motion) worst = row;
   };
   weigh(clock(now));
-  weigh(estop_.update(now, in.pins, in.clear_asked));
+  weigh(estop_.update(now, in.pins, in.has_estop, in.clear_asked));
   weigh(stop_.update(in.stop_asked, in.clear_asked));
   weigh(motors_.update(now, in.motors, power_));
-  const Finding imu = imu_.update(now, in.imu, is_moving(twist_));
+  const Finding imu = imu_.update(now, in.imu, in.has_imu, is_moving(twist_));
   if (imu.cause == Cause::kTilt) weigh(imu);
   weigh(scans_.update(now, in.scan));
   if (in.driver_missing) weigh({Cause::kDriver, {Motion::kStop, *in.driver_missing}});

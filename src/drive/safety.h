@@ -19,9 +19,11 @@ struct SafetyInputs {
   Twist twist;                                ///< finite; what is driven if nothing speaks against it
   std::optional<std::string> driver_missing;  ///< why nobody drives
   std::shared_ptr<const Scan> scan;           ///< null: none yet
-  std::optional<ImuSample> imu;               ///< none ever: the robot has none
+  bool has_imu = false;                       ///< there is one, though it may not have spoken yet
+  std::optional<ImuSample> imu;
   std::optional<Stamped<MotorState>> motors;
-  std::optional<Stamped<PinState>> pins;  ///< none ever: the robot has no e-stop
+  bool has_estop = false;  ///< there is one, though it may not have been read yet
+  std::optional<Stamped<PinState>> pins;
   std::optional<std::string> stop_asked;  ///< by whom or why; needed for one tick only
   bool clear_asked = false;               ///< a person clears stops, for one tick
   BatteryState battery;

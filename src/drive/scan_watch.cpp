@@ -17,6 +17,8 @@ namespace {
 constexpr std::size_t kReturnsThatTell = 20;
 /// A lidar with a smaller share of valid beams is covered, or looks nowhere.
 constexpr double kLeastValidShare = 0.05;
+/// Somewhere in a building is a wall: one to which nothing at all comes back is covered, or broken.
+constexpr double kLeastReturnShare = 0.01;
 
 /// An infinite range is valid too: there is nothing.
 bool is_valid(const Beam& b) {
@@ -24,10 +26,14 @@ bool is_valid(const Beam& b) {
 }
 
 bool is_blind(const Scan& scan) {
-  std::size_t valid = 0;
-  for (const Beam& b : scan.beams) valid += is_valid(b) ? 1 : 0;
-  const double least = kLeastValidShare * static_cast<double>(scan.beams.size());
-  return valid == 0 || static_cast<double>(valid) < least || !is_finite(scan.mount.robot_T_lidar);
+  std::size_t valid = 0, returns = 0;
+  for (const Beam& b : scan.beams) {
+    valid += is_valid(b) ? 1 : 0;
+    returns += is_valid(b) && is_return(b) ? 1 : 0;
+  }
+  const auto all = static_cast<double>(scan.beams.size());
+  return returns == 0 || static_cast<double>(valid) < kLeastValidShare * all ||
+         static_cast<double>(returns) < kLeastReturnShare * all || !is_finite(scan.mount.robot_T_lidar);
 }
 
 bool repeats(const Scan& a, const Scan& b) {

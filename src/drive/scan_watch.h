@@ -11,7 +11,8 @@
 namespace dynslam {
 
 /// Whether the lidar still sees the world: its newest scan that is any good must not be too old. Not good is
-/// one from the future, one older than the one before, one with next to no valid beam, and one that repeats
+/// one from the future, one older than the one before, one with next to no valid beam or without a single
+/// wall, and one that repeats
 /// the ranges of the one before to the last bit, as only a frozen lidar does.
 class ScanWatch {
  public:

@@ -21,7 +21,7 @@ std::optional<T> value_of(const typename Latest<T>::Item& item) {
 }  // namespace
 
 ControlStage::ControlStage(Motors* motors, Pins* pins, const DriveConfig& config, const Clock& clock,
-                           Ports& ports, const Latest<ImuSample>& imu)
+                           Ports& ports, const Latest<ImuSample>& imu, bool has_imu)
     : motors_(motors),
       pins_(pins),
       clock_(clock),
@@ -32,6 +32,8 @@ ControlStage::ControlStage(Motors* motors, Pins* pins, const DriveConfig& config
       motors_due_(due_) {
   motors_health_.present = motors != nullptr;
   pins_health_.present = pins != nullptr;
+  inputs_.has_estop = pins != nullptr;
+  inputs_.has_imu = has_imu;
 }
 
 void ControlStage::turn() {

@@ -15,9 +15,10 @@ class ControlStage {
  public:
   static constexpr Duration kTick = std::chrono::milliseconds(20);
 
-  /// `motors` and `pins` may be null: then there is nothing to drive, or no e-stop. All must outlive this.
+  /// `motors` and `pins` may be null: then there is nothing to drive, or no e-stop. With `has_imu` one is to
+  /// speak in `imu`. All must outlive this.
   ControlStage(Motors* motors, Pins* pins, const DriveConfig& config, const Clock& clock, Ports& ports,
-               const Latest<ImuSample>& imu);
+               const Latest<ImuSample>& imu, bool has_imu);
 
   /// One tick, now.
   void turn();

@@ -16,7 +16,8 @@ Robot::Robot(Devices devices, const RobotConfig& config, const Clock& clock)
       clock_(clock),
       slam_(config.slam),
       slam_stage_(slam_, ports_, clock),
-      control_(devices_.motors.get(), devices_.pins.get(), config.drive, clock, ports_, newest_imu_) {
+      control_(devices_.motors.get(), devices_.pins.get(), config.drive, clock, ports_, newest_imu_,
+               devices_.imu != nullptr) {
   slam_.follow();
   if (devices_.lidar) {
     const auto take = [this](Scan scan) {

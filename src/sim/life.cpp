@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "sim/robot_shape.h"
 
@@ -57,14 +58,48 @@ bool Life::is_in_something(const Vector2& p) const {
   });
 }
 
+bool Life::is_within(const Vector2& p) const {
+  return (p.array() >= caster_.low_corner().array()).all() &&
+         (p.array() <= caster_.high_corner().array()).all();
+}
+
 bool Life::place(const Pose2& world_T_robot) {
   const Vector2 p = world_T_robot.translation();
-  const bool is_within =
-      (p.array() >= caster_.low_corner().array()).all() && (p.array() <= caster_.high_corner().array()).all();
-  if (!is_within || is_blocked(world_T_robot) || is_in_something(p)) return false;
+  if (!is_within(p) || is_blocked(world_T_robot) || is_in_something(p)) return false;
   body_.place(world_T_robot);
   recent_.fill(body_.pose());
   return true;
+}
+
+/// Whichever way it faces.
+bool Life::could_stand_at(const Vector2& p) const {
+  constexpr int kWays = 4;
+  if (!is_within(p)) return false;
+  for (int i = 0; i < kWays; ++i) {
+    if (!is_blocked({p.x(), p.y(), i * kPi / kWays})) return !is_in_something(p);
+  }
+  return false;
+}
+
+/// Step by step over the floor, in all four directions.
+std::vector<Vector2> Life::reachable_floor(double step_m) const {
+  using Place = std::pair<int, int>;
+  const Vector2 start = body_.pose().world_T_robot.translation();
+  std::set<Place> seen = {{0, 0}};
+  std::deque<Place> open = {{0, 0}};
+  std::vector<Vector2> floor;
+  while (!open.empty()) {
+    const auto [column, row] = open.front();
+    open.pop_front();
+    const Vector2 p = start + step_m * Vector2(column, row);
+    if (!could_stand_at(p)) continue;
+    floor.push_back(p);
+    for (const Place& next :
+         {Place(column + 1, row), Place(column - 1, row), Place(column, row + 1), Place(column, row - 1)}) {
+      if (seen.insert(next).second) open.push_back(next);
+    }
+  }
+  return floor;
 }
 
 void Life::move_actors() {

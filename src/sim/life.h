@@ -45,11 +45,13 @@ class Life {
 
   /// Puts the robot down elsewhere; false, and nothing happens, where something stands.
   bool place(const Pose2& world_T_robot);
+  /// See Simulator::reachable_floor.
+  std::vector<Vector2> reachable_floor(double step_m) const;
   RobotBody& body() { return body_; }
   const RobotBody& body() const { return body_; }
   /// 100 a second, the last of them kTruthKept old at most, oldest first.
   const std::deque<TruePose>& truth() const { return truth_; }
-  static constexpr Duration kTruthKept = std::chrono::minutes(20);
+  static constexpr Duration kTruthKept = std::chrono::minutes(5);
 
   Time next_scan_due() const { return scans.next_due().value_or(lidar_.next_due()); }
   Time next_imu_due() const { return imu.next_due().value_or(imu_.next_due()); }
@@ -62,8 +64,10 @@ class Life {
   static constexpr Duration kViewPeriod = std::chrono::milliseconds(50);
 
  private:
+  bool is_within(const Vector2& p) const;
   bool is_blocked(const Pose2& world_T_robot) const;
   bool is_in_something(const Vector2& p) const;
+  bool could_stand_at(const Vector2& p) const;
   void move_actors();
   void note_truth();
 

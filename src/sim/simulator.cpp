@@ -71,9 +71,23 @@ Time Simulator::catch_up() {
       life_.command(late_commands_.front().power, late_commands_.front().at);
       late_commands_.pop_front();
     }
+    kick_on_schedule();
     life_.step();
   }
   return now;
+}
+
+void Simulator::kick_on_schedule() {
+  const std::vector<ScheduledKick>& kicks = world_.kicks;
+  for (const double now_s = to_seconds(life_.now() - begin_);
+       next_kick_ < kicks.size() && kicks[next_kick_].at_s <= now_s; ++next_kick_)
+    carry(kicks[next_kick_].robot_T_new);
+}
+
+bool Simulator::carry(const Pose2& robot_T_new) {
+  const bool carried = life_.place(life_.body().pose().world_T_robot * robot_T_new);
+  if (carried) ++kicks_;
+  return carried;
 }
 
 std::optional<FaultKind> Simulator::fault_of(SimDevice device, Time now) const {
@@ -189,7 +203,7 @@ void Simulator::clear_fault(SimDevice device) {
 bool Simulator::kick(const Pose2& robot_T_new) {
   const Lock lock(mutex_);
   catch_up();
-  return life_.place(life_.body().pose().world_T_robot * robot_T_new);
+  return carry(robot_T_new);
 }
 
 void Simulator::press_estop(bool pressed) {
@@ -215,8 +229,15 @@ SimTruth Simulator::truth() {
           body.twist(),
           body.distance_m(),
           body.contacts(),
+          kicks_,
           body.battery().share(),
           body.battery().voltage_v()};
+}
+
+std::vector<Vector2> Simulator::reachable_floor(double step_m) {
+  const Lock lock(mutex_);
+  catch_up();
+  return life_.reachable_floor(step_m);
 }
 
 std::optional<Pose2> Simulator::true_pose(Time t) {

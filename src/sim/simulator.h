@@ -24,6 +24,7 @@ struct SimTruth {
   Twist twist;
   double distance_m = 0.0;
   int contacts = 0;
+  int kicks = 0;  ///< how often it was carried off
   double battery_share = 1.0, battery_v = 0.0;
 };
 
@@ -49,6 +50,9 @@ class Simulator {
   void set_battery(double share);
 
   SimTruth truth();
+  /// Points of the floor that the robot could drive to from where it is, as things stand: `step_m` apart,
+  /// around where it is.
+  std::vector<Vector2> reachable_floor(double step_m);
   /// Where the robot was; nothing before what is kept (Life::kTruthKept) and after now.
   std::optional<Pose2> true_pose(Time t);
   /// 100 poses a second, those after a time, oldest first.
@@ -75,6 +79,8 @@ class Simulator {
 
   /// Brings the simulation up to the clock; returns the clock's now.
   Time catch_up();
+  void kick_on_schedule();
+  bool carry(const Pose2& robot_T_new);
   std::optional<FaultKind> fault_of(SimDevice device, Time now) const;
   /// For motors and pins: throws if the device is unplugged or, after waiting, silent; else its fault.
   std::optional<FaultKind> answer(SimDevice device, Lock& lock);
@@ -99,6 +105,8 @@ class Simulator {
   std::optional<CameraView> last_view_;
   std::optional<MotorState> last_motors_;
   PinState last_pins_;
+  std::size_t next_kick_ = 0;
+  int kicks_ = 0;
   bool estop_ = false;
   Time estop_since_;
 };

@@ -107,6 +107,12 @@ struct ScheduledFault {
   double at_s = 0.0, until_s = 0.0;
 };
 
+/// Somebody carries the robot off.
+struct ScheduledKick {
+  double at_s = 0.0;
+  Pose2 robot_T_new;
+};
+
 struct World {
   std::string name;
   Pose2 world_T_start;
@@ -118,6 +124,7 @@ struct World {
   std::vector<Doorstep> doorsteps;
   std::vector<FloorPatch> floors;
   std::vector<ScheduledFault> faults;
+  std::vector<ScheduledKick> kicks;  ///< in the order of time
   int start_line = 0, tour_line = 0;
 };
 

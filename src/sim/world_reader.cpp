@@ -185,6 +185,14 @@ ScheduledFault read_fault(TomlFields& f) {
   return fault;
 }
 
+ScheduledKick read_kick(TomlFields& f) {
+  ScheduledKick kick;
+  kick.at_s = f.needed("at_s", f.number("at_s", kSeconds), 0.0);
+  const Vector2 by = f.needed("by", f.point("by"), Vector2(Vector2::Zero()));
+  kick.robot_T_new = {by.x(), by.y(), radians(f.number("yaw_deg", 0.0, kDegrees))};
+  return kick;
+}
+
 void read_start(TomlFields& file, Problems& problems, World& world) {
   const toml::table* table = file.table("start");
   if (table == nullptr) return file.fail("start is missing: start = { at = [x, y], yaw_deg = 0 }");
@@ -209,6 +217,9 @@ World read_world(const toml::table& table, Problems& problems) {
   read_all(file, "doorstep", problems, world.doorsteps, read_doorstep);
   read_all(file, "floor", problems, world.floors, read_floor);
   read_all(file, "fault", problems, world.faults, read_fault);
+  read_all(file, "kick", problems, world.kicks, read_kick);
+  std::stable_sort(world.kicks.begin(), world.kicks.end(),
+                   [](const ScheduledKick& a, const ScheduledKick& b) { return a.at_s < b.at_s; });
   for (const toml::table* one : file.tables("furniture")) {
     TomlFields fields(*one, label("furniture", *one), problems);
     read_furniture(fields, problems, world.furniture);

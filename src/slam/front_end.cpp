@@ -99,7 +99,7 @@ void FrontEnd::note_time(Time t) {
 
 bool FrontEnd::is_ready(const Scan& scan) const {
   const Time end = scan.stamp + from_seconds(scan.beams.empty() ? 0.0 : scan.beams.back().time_s);
-  const bool covered = motion_.imu().empty() || motion_.imu().newest() >= end;
+  const bool covered = motion_.imu().empty() || motion_.imu().settled() >= end;
   return covered || newest_sample_ > end + kImuPatience || is_clock_jump(end, newest_sample_);
 }
 

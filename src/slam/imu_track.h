@@ -19,8 +19,8 @@ class ImuTrack {
   void add(const ImuSample& sample);
 
   bool empty() const { return samples_.empty(); }
-  /// REQUIRES: !empty().
-  Time newest() const { return samples_.back().stamp; }
+  /// Until then all spikes are out: the newest sample may be one until the next is there. REQUIRES: !empty().
+  Time settled() const { return samples_[samples_.size() < 2 ? 0 : samples_.size() - 2].stamp; }
 
   /// Heading at a time, continuous from call to call, in the IMU's own frame. Past the newest sample it is
   /// carried on with the last rate, for up to kCarryOn; nothing is said farther out, across a gap longer than

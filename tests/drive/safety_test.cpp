@@ -116,26 +116,29 @@ void scan_repeats(SafetyInputs& in, int ms) {
   in.scan = scan;
 }
 void hall_repeats(SafetyInputs& in, int ms) {
-  in.scan = std::make_shared<Scan>(scan_of({}, event_ms(ms), 100));
+  in.scan = std::make_shared<Scan>(scan_of(wall_at(15), event_ms(ms), 100));
+}
+void scan_without_returns(SafetyInputs& in, int ms) {
+  in.scan = std::make_shared<Scan>(scan_of(ms > 0 ? DrawnWorld{} : wall_at(15), event_ms(ms), 100));
 }
 void scan_blind(SafetyInputs& in, int ms) {
-  auto scan = std::make_shared<Scan>(scan_of({}, event_ms(ms), 100));
+  auto scan = std::make_shared<Scan>(scan_of(wall_at(15), event_ms(ms), 100));
   if (ms > 0) {
     for (Beam& b : scan->beams) b.range_m = static_cast<float>(kNan);
   }
   in.scan = scan;
 }
 void scan_without_beams(SafetyInputs& in, int ms) {
-  auto scan = std::make_shared<Scan>(scan_of({}, event_ms(ms), ms > 0 ? 0 : 100));
+  auto scan = std::make_shared<Scan>(scan_of(wall_at(15), event_ms(ms), ms > 0 ? 0 : 100));
   in.scan = scan;
 }
 void scan_of_the_future(SafetyInputs& in, int ms) {
-  auto scan = std::make_shared<Scan>(scan_of({}, event_ms(ms), 100));
+  auto scan = std::make_shared<Scan>(scan_of(wall_at(15), event_ms(ms), 100));
   if (ms > 0) scan->stamp += std::chrono::seconds(1);
   in.scan = scan;
 }
 void scan_goes_back(SafetyInputs& in, int ms) {
-  in.scan = std::make_shared<Scan>(scan_of({}, event_ms(-ms), 100));
+  in.scan = std::make_shared<Scan>(scan_of(wall_at(15), event_ms(-ms), 100));
 }
 void lean_24(SafetyInputs& in, int) { in.imu->world_q_robot = leaning(24) * in.imu->world_q_robot; }
 void lean_31(SafetyInputs& in, int) { in.imu->world_q_robot = leaning(31); }
@@ -240,6 +243,8 @@ const Row kRows[] = {
     {"an empty hall repeats", hall_repeats, 2000, kGo, Cause::kNone, ""},
     {"blind 350", scan_blind, 350, kGo, Cause::kNone, ""},
     {"blind 351", scan_blind, 351, kStop, Cause::kScan, "the lidar sees nothing valid for 0.4 s"},
+    {"no returns 350", scan_without_returns, 350, kGo, Cause::kNone, ""},
+    {"no returns 351", scan_without_returns, 351, kStop, Cause::kScan, "sees nothing valid"},
     {"no beams", scan_without_beams, 351, kStop, Cause::kScan, "sees nothing valid"},
     {"scan future", scan_of_the_future, 351, kStop, Cause::kScan, "stamps are ahead of the clock"},
     {"scan goes back", scan_goes_back, 351, kStop, Cause::kScan, "no lidar data for 0.4 s"},
@@ -335,6 +340,30 @@ TEST(Safety, ARobotWithoutImuOrEStopMayDrive) {
   EXPECT_EQ(blind.decide(Bench::at(0), in).worst.verdict, (Verdict{kStop, "no lidar data yet"}));
 }
 
+TEST(Safety, AnEStopThatWasNeverReadStops) {
+  Safety safety({}, {}, {});
+  HealthyRobot robot;
+  SafetyInputs in;
+  in.scan = robot.scan(Bench::at(0));
+  in.motors = robot.motors(Bench::at(0));
+  in.has_estop = true;
+  EXPECT_EQ(safety.decide(Bench::at(0), in).worst.verdict, (Verdict{kStop, "e-stop not read"}));
+  in.pins = robot.pins(Bench::at(10));
+  EXPECT_EQ(safety.decide(Bench::at(10), in).worst.verdict, (Verdict{kGo, ""}));
+}
+
+TEST(Safety, AnImuThatNeverSpeaksIsMissed) {
+  Safety safety({}, {}, {});
+  HealthyRobot robot;
+  for (int ms = 0; ms <= 510; ms += 10) {
+    SafetyInputs in;
+    in.scan = robot.scan(Bench::at(ms));
+    in.motors = robot.motors(Bench::at(ms));
+    in.has_imu = true;
+    EXPECT_EQ(safety.decide(Bench::at(ms), in).worst.verdict.motion, ms <= 500 ? kGo : kSlow) << ms;
+  }
+}
+
 TEST(Safety, AnImuThatGivesNonsenseFromTheStartIsMissed) {
   Safety safety({}, {}, {});
   HealthyRobot robot;
@@ -398,7 +427,9 @@ TEST(Safety, AnOldValueIsOfNoUseAfterTheClockRanBackwards) {
   const Case cases[] = {
       {[](SafetyInputs& in, int) { in.motors->stamp = event_ms(-10); }, kStop, Cause::kMotorsSilent},
       {[](SafetyInputs& in, int) { in.pins->stamp = event_ms(-10); }, kStop, Cause::kPinsSilent},
-      {[](SafetyInputs& in, int) { in.scan = std::make_shared<Scan>(scan_of({}, event_ms(-10), 100)); },
+      {[](SafetyInputs& in, int) {
+         in.scan = std::make_shared<Scan>(scan_of(wall_at(15), event_ms(-10), 100));
+       },
        kStop, Cause::kScan},
       {[](SafetyInputs& in, int) { in.scan.reset(); }, kStop, Cause::kScan},
       {[](SafetyInputs& in, int) { in.imu->stamp = event_ms(-10); }, kSlow, Cause::kImu},

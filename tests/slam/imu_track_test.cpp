@@ -40,6 +40,19 @@ TEST(ImuTrack, SmoothsASinglePeakAndNothingElse) {
   for (int i = 0; i <= 20; ++i) EXPECT_NEAR(*track.heading_at(time_at_s(0.01 * i)), 0.02 * i, 1e-9) << i;
 }
 
+TEST(ImuTrack, TheNewestSampleMayStillBeAPeak) {
+  ImuTrack track;
+  track.add(heading(0.0, 0.0));
+  EXPECT_EQ(track.settled(), time_at_s(0.0));
+  track.add(heading(0.01, 0.0));
+  track.add(heading(0.02, 0.3));
+  EXPECT_EQ(track.settled(), time_at_s(0.01));
+  EXPECT_GT(*track.heading_at(time_at_s(0.015)), 0.1);
+  track.add(heading(0.03, 0.0));
+  EXPECT_EQ(track.settled(), time_at_s(0.02));
+  EXPECT_NEAR(*track.heading_at(time_at_s(0.015)), 0.0, 1e-9);
+}
+
 TEST(ImuTrack, KeepsAStepAndAFastTurn) {
   ImuTrack track;
   for (int i = 0; i <= 20; ++i) track.add(heading(0.01 * i, i < 10 ? 0.0 : 0.3));
