@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/ros_messages.h"
+#include "io/scan_fan.h"
 
 namespace dynslam {
 namespace {
@@ -97,15 +98,15 @@ std::optional<Record> McapRecording::take_message(Bytes content) {
     skipped_.add(channel->topic);
     return std::nullopt;
   }
-  std::optional<Record> record = decode(channel->kind, *message);
+  std::optional<Record> record = decode(*channel, *message);
   if (record) used_topic = channel->topic;
   return record;
 }
 
-std::optional<Record> McapRecording::decode(McapKind kind, const McapMessage& message) {
-  switch (kind) {
+std::optional<Record> McapRecording::decode(const McapChannel& channel, const McapMessage& message) {
+  switch (channel.kind) {
     case McapKind::kScan:
-      return decode_scan(message);
+      return decode_scan(message, channel.has_gaps);
     case McapKind::kImu:
       return decode_imu_sample(message);
     case McapKind::kOdometry:
@@ -119,7 +120,7 @@ std::optional<Record> McapRecording::decode(McapKind kind, const McapMessage& me
   return std::nullopt;
 }
 
-std::optional<Record> McapRecording::decode_scan(const McapMessage& message) {
+std::optional<Record> McapRecording::decode_scan(const McapMessage& message, bool has_gaps) {
   std::optional<RosMessage<Scan>> scan = decode_laser_scan(message.data);
   if (!scan) {
     counters_.add("scan.bad");
@@ -127,6 +128,7 @@ std::optional<Record> McapRecording::decode_scan(const McapMessage& message) {
   }
   const std::optional<Time> stamp = stamp_of(scan->header.stamp, message);
   if (!stamp) return std::nullopt;
+  if (has_gaps) drop_gaps(scan->value);
   scan->value.stamp = *stamp;
   scan->value.mount = mount_of(scan->header.frame_id);
   ++scans_;
@@ -179,7 +181,14 @@ LidarMount McapRecording::mount_of(std::string_view frame) {
   if (std::abs(axes(2, 2)) < kLevel) counters_.add("tf.tilted_lidar");
   const Eigen::Vector3d at = robot_T_lidar->translation();
   // Where the lidar's x axis points; for one that hangs upside down this is the yaw before the roll by pi.
-  return {{at.x(), at.y(), std::atan2(axes(1, 0), axes(0, 0))}, axes(2, 2) < 0.0};
+  return {{at.x(), at.y(), std::atan2(axes(1, 0), axes(0, 0))}, axes(2, 2) < 0.0, height_of(frame)};
+}
+
+/// What a small robot's lidar can have; else what was configured.
+double McapRecording::height_of(std::string_view frame) const {
+  constexpr double kLow_m = 0.02, kHigh_m = 3.0;
+  const double height_m = tree_.height_m(frame).value_or(0.0);
+  return height_m >= kLow_m && height_m <= kHigh_m ? height_m : config_mount_.height_m;
 }
 
 }  // namespace dynslam
