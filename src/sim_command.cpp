@@ -17,6 +17,7 @@
 #include "robot/stage_clock.h"
 #include "robot/steady_memory.h"
 #include "robot/tour.h"
+#include "robot_config.h"
 #include "sim/simulator.h"
 
 namespace dynslam {
@@ -42,7 +43,7 @@ class TourMission {
         clock_(clock),
         begin_(clock.now()),
         simulator_(std::make_shared<Simulator>(load_world(options.world), clock, options.seed)),
-        robot_(make_devices(simulator_), {config.slam, config.drive, config.lidar.mount()}, clock),
+        robot_(make_devices(simulator_), robot_config(config), clock),
         tour_(points_map(simulator_->world())) {
     robot_.on_scan([this](const ScanResult& scan) {
       result.trajectory_live.push_back({scan.stamp, scan.map_T_robot});
@@ -134,6 +135,13 @@ class TourMission {
   std::vector<TruePose> truth_;
 };
 
+/// What became of the recording, where that is not what was wanted.
+void warn_of_recording(const Ports& ports) {
+  const auto recording = ports.recording.get().value;
+  if (recording && !recording->trouble.empty())
+    spdlog::warn("the recording is not whole: {}", recording->trouble);
+}
+
 /// All in this thread, as fast as it goes, repeatable to the bit.
 MissionEnd run_stepped(TourMission& mission, SteppedClock& clock, ProgressBar& bar) {
   while (true) {
@@ -191,6 +199,7 @@ int run_sim(const SimOptions& options, const Config& config) {
     clock = std::move(steps);
   }
   TourMission mission(options, config, *clock);
+  if (out) mission.robot().ports().recording_wish.put({true, out->reserve("recording.mcap")});
   MissionEnd end;
   if (stepped) {
     ProgressBar bar(options.duration_s.has_value());
@@ -203,6 +212,7 @@ int run_sim(const SimOptions& options, const Config& config) {
   mission.result.cpu_s = timer.cpu_s();
   tell(options, figures, mission.result);
   for (const std::string& finding : mission.result.findings) spdlog::warn("{}", finding);
+  warn_of_recording(mission.robot().ports());
   if (out) {
     nlohmann::json report = report_of(mission.result);
     report["mission"] = figures;

@@ -166,10 +166,10 @@ std::string encode_diagnostics(Time stamp, std::span<const DiagnosticStatus> sta
   return cdr.bytes();
 }
 
-std::string encode_log(Time stamp, LogLevel level, std::string_view name, std::string_view text) {
+std::string encode_log(const LogLine& line, std::string_view name) {
   CdrWriter cdr;
-  put_time(cdr, stamp);
-  cdr.put(static_cast<std::uint8_t>(level)).text(name).text(text).text("").text("");
+  put_time(cdr, line.time);
+  cdr.put(static_cast<std::uint8_t>(line.level)).text(name).text(line.text).text("").text("");
   return cdr.put(std::uint32_t{0}).bytes();
 }
 

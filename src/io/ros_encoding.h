@@ -13,6 +13,7 @@
 #include "base/battery_state.h"
 #include "base/imu_sample.h"
 #include "base/jpeg_frame.h"
+#include "base/log_line.h"
 #include "base/pose2.h"
 #include "base/scan.h"
 #include "base/twist.h"
@@ -67,9 +68,7 @@ struct DiagnosticStatus {
 /// diagnostic_msgs/DiagnosticArray.
 std::string encode_diagnostics(Time stamp, std::span<const DiagnosticStatus> statuses);
 
-enum class LogLevel : std::uint8_t { kDebug = 10, kInfo = 20, kWarn = 30, kError = 40, kFatal = 50 };
-
-/// rcl_interfaces/Log.
-std::string encode_log(Time stamp, LogLevel level, std::string_view name, std::string_view text);
+/// rcl_interfaces/Log, of the logger `name`.
+std::string encode_log(const LogLine& line, std::string_view name);
 
 }  // namespace dynslam

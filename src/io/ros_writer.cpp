@@ -2,6 +2,7 @@
 #include "io/ros_writer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/angles.h"
 #include "io/mcap_channels.h"
@@ -114,8 +115,8 @@ void RosWriter::write_diagnostics(Time now, std::span<const DiagnosticStatus> st
   put(kDiagnostics, now, now, encode_diagnostics(now, statuses));
 }
 
-void RosWriter::write_log(Time now, LogLevel level, std::string_view name, std::string_view text) {
-  put(kLog, now, now, encode_log(now, level, name, text));
+void RosWriter::write_log(Time now, const LogLine& line, std::string_view name) {
+  put(kLog, now, line.time, encode_log(line, name));
 }
 
 }  // namespace dynslam

@@ -38,7 +38,7 @@ class RosWriter {
   void write_battery(Time now, const BatteryState& battery);
   void write_map(Time now, Time stamp, const TrinaryMap& map);
   void write_diagnostics(Time now, std::span<const DiagnosticStatus> statuses);
-  void write_log(Time now, LogLevel level, std::string_view name, std::string_view text);
+  void write_log(Time now, const LogLine& line, std::string_view name);
 
  private:
   enum Topic {
