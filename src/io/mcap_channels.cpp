@@ -74,7 +74,7 @@ bool McapChannels::take_channel(Bytes content) {
   // /tf has the same type, but moves.
   if (kind == McapKind::kTransforms && topic != "/tf_static" && topic != "tf_static") kind = McapKind::kOther;
   if (has_key(metadata, kDerivedFromKey)) kind = McapKind::kOther;
-  channels_[id] = {kind, std::string(topic.substr(0, kMaxTopicLength)), has_key(metadata, kGapsKey)};
+  channels_[id] = {kind, std::string(topic.substr(0, kMaxTopicLength)), has_key(metadata, kOursKey)};
   return true;
 }
 

@@ -106,9 +106,9 @@ std::optional<Record> McapRecording::take_message(Bytes content) {
 std::optional<Record> McapRecording::decode(const McapChannel& channel, const McapMessage& message) {
   switch (channel.kind) {
     case McapKind::kScan:
-      return decode_scan(message, channel.has_gaps);
+      return decode_scan(message, channel.ours);
     case McapKind::kImu:
-      return decode_imu_sample(message);
+      return decode_imu_sample(message, channel.ours);
     case McapKind::kOdometry:
       return decode_odometry_sample(message);
     case McapKind::kTransforms:
@@ -120,32 +120,33 @@ std::optional<Record> McapRecording::decode(const McapChannel& channel, const Mc
   return std::nullopt;
 }
 
-std::optional<Record> McapRecording::decode_scan(const McapMessage& message, bool has_gaps) {
+std::optional<Record> McapRecording::decode_scan(const McapMessage& message, bool ours) {
   std::optional<RosMessage<Scan>> scan = decode_laser_scan(message.data);
   if (!scan) {
     counters_.add("scan.bad");
     return std::nullopt;
   }
-  const std::optional<Time> stamp = stamp_of(scan->header.stamp, message);
+  const std::optional<Time> stamp = stamp_of(scan->header.stamp, message, ours);
   if (!stamp) return std::nullopt;
-  if (has_gaps) drop_gaps(scan->value);
+  if (ours) drop_gaps(scan->value);
   scan->value.stamp = *stamp;
   scan->value.mount = mount_of(scan->header.frame_id);
   ++scans_;
   return std::move(scan->value);
 }
 
-std::optional<Record> McapRecording::decode_imu_sample(const McapMessage& message) {
+std::optional<Record> McapRecording::decode_imu_sample(const McapMessage& message, bool ours) {
   ImuFault fault = ImuFault::kNone;
   const RosMessage<Eigen::Quaterniond> imu = decode_imu(message.data, fault);
   if (fault != ImuFault::kNone) {
     counters_.add(name_of(fault));
     return std::nullopt;
   }
-  const std::optional<Time> stamp = stamp_of(imu.header.stamp, message);
+  const std::optional<Time> stamp = stamp_of(imu.header.stamp, message, ours);
   if (!stamp) return std::nullopt;
   Eigen::Quaterniond world_q_robot = imu.value;
-  if (const auto robot_T_imu = tree_.robot_T(imu.header.frame_id)) {
+  const auto robot_T_imu = tree_.robot_T(imu.header.frame_id);
+  if (robot_T_imu && robot_T_imu->linear() != Eigen::Matrix3d::Identity()) {
     world_q_robot = (imu.value * Eigen::Quaterniond(robot_T_imu->linear()).inverse()).normalized();
   }
   return ImuSample{*stamp, world_q_robot};
@@ -157,14 +158,14 @@ std::optional<Record> McapRecording::decode_odometry_sample(const McapMessage& m
     counters_.add("odometry.bad");
     return std::nullopt;
   }
-  const std::optional<Time> stamp = stamp_of(odometry->header.stamp, message);
+  const std::optional<Time> stamp = stamp_of(odometry->header.stamp, message, false);
   if (!stamp) return std::nullopt;
   return OdometrySample{*stamp, odometry->value};
 }
 
 /// The sensor's own stamp, or, where the driver left it zero, when the message was recorded.
-std::optional<Time> McapRecording::stamp_of(Time stamp, const McapMessage& message) {
-  if (stamp != Time{}) return stamp;
+std::optional<Time> McapRecording::stamp_of(Time stamp, const McapMessage& message, bool ours) {
+  if (ours || stamp != Time{}) return stamp;
   if (message.log_time_ns > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()) ||
       !is_representable_s(static_cast<double>(message.log_time_ns) * 1e-9)) {
     counters_.add("stamp.bad");

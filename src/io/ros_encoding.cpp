@@ -16,7 +16,6 @@ constexpr float kFarthest_m = 100.0F;
 constexpr double kNotThere = -1.0;  // first of a covariance: the field beside it means nothing
 
 void put_time(CdrWriter& cdr, Time stamp) {
-  if (stamp == Time{}) stamp += Duration(1);
   const auto seconds = std::chrono::floor<std::chrono::seconds>(stamp.time_since_epoch());
   cdr.put(static_cast<std::int32_t>(seconds.count()));
   cdr.put(static_cast<std::uint32_t>((stamp.time_since_epoch() - seconds).count()));

@@ -19,8 +19,7 @@
 #include "base/twist.h"
 #include "grid/trinary_map.h"
 
-/// Messages of ROS 2 in CDR: what ros_messages.h takes apart, and more. ROS takes a stamp of zero for none;
-/// it becomes the first nanosecond.
+/// Messages of ROS 2 in CDR: what ros_messages.h takes apart, and more.
 namespace dynslam {
 
 /// sensor_msgs/LaserScan, see ScanFan. The mount is not in it.

@@ -41,10 +41,12 @@ McapTopic RosWriter::describe(Topic topic) {
                                                {"/rosout", "rcl_interfaces", "Log"}}};
   const Row& row = kRows[topic];
   const std::string package(row.package), type(row.type);
-  McapTopic out{std::string(row.topic), package + "/msg/" + type, ros_schema(package + '/' + type)};
+  McapTopic out{std::string(row.topic),
+                package + "/msg/" + type,
+                ros_schema(package + '/' + type),
+                {{std::string(kOursKey), "1"}}};
   // Taken for the wheels' word it would make a scan agree with itself.
   if (topic == kOdometry) out.metadata.emplace(kDerivedFromKey, "/scan");
-  if (topic == kScan) out.metadata.emplace(kGapsKey, "NaN");
   return out;
 }
 
