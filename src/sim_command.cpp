@@ -11,6 +11,7 @@
 
 #include "grid/trinary_map.h"
 #include "io/safe_file.h"
+#include "log_tap.h"
 #include "progress_bar.h"
 #include "result_files.h"
 #include "robot/robot.h"
@@ -199,6 +200,7 @@ int run_sim(const SimOptions& options, const Config& config) {
     clock = std::move(steps);
   }
   TourMission mission(options, config, *clock);
+  const LogTap tap(mission.robot().ports(), *clock);
   if (out) mission.robot().ports().recording_wish.put({true, out->reserve("recording.mcap")});
   MissionEnd end;
   if (stepped) {

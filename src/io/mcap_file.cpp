@@ -11,7 +11,12 @@ McapFile::McapFile(std::string path, std::uint64_t free_floor, const std::string
     : file_(std::move(path), free_floor),
       mcap_([this](std::string_view bytes) { file_.append(bytes); }),
       ros_(mcap_) {
-  mcap_.begin(library, "dynslam", about);
+  try {
+    mcap_.begin(library, "dynslam", about);
+  } catch (...) {
+    file_.remove();  // without its head it is nothing
+    throw;
+  }
 }
 
 std::string McapFile::finish() {

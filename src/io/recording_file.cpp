@@ -86,6 +86,8 @@ void RecordingFile::sync() {
   if (::fsync(file_) != 0) fail(errno);
 }
 
+void RecordingFile::remove() noexcept { ::unlink(path_.c_str()); }
+
 void RecordingFile::fail(int error) const {
   throw std::runtime_error("cannot write to " + path_ + ": " + std::generic_category().message(error));
 }

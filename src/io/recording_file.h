@@ -32,6 +32,9 @@ class RecordingFile {
   /// The same now, and waits for it.
   void sync();
 
+  /// Takes it off the disk.
+  void remove() noexcept;
+
   const std::string& path() const { return path_; }
   std::uint64_t size() const { return size_; }
 

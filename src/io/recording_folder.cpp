@@ -74,10 +74,14 @@ void RecordingFolder::shrink_ring(std::uint64_t most, std::uint64_t free_floor) 
   const std::vector<RingFile> files = ring_files(path_);
   std::uint64_t sum = std::accumulate(files.begin(), files.end(), std::uint64_t{0},
                                       [](std::uint64_t s, const RingFile& f) { return s + f.size; });
+  std::error_code unknown;
+  const std::uintmax_t free = fs::space(path_, unknown).available;
+  const bool can_help = !unknown && free + sum >= free_floor;
   for (const RingFile& file : files) {
     std::error_code error;
     const fs::space_info disk = fs::space(path_, error);
-    if (sum <= most && (error || disk.available >= free_floor)) return;
+    const bool is_tight = can_help && !error && disk.available < free_floor;
+    if (sum <= most && !is_tight) return;
     if (!fs::remove(file.path, error) && error)
       throw std::runtime_error("cannot delete " + file.path.string() + ": " + error.message());
     sum -= file.size;

@@ -19,8 +19,8 @@ class RecordingFolder {
   /// The next file of the ring.
   std::string next_in_ring() const;
 
-  /// Deletes the ring's oldest files until the others have `most` bytes at most and so many bytes of the disk
-  /// are free, or none is left.
+  /// Deletes the ring's oldest files until the others have `most` bytes at most, and so many bytes of the
+  /// disk are free; where that cannot be had, not for its sake.
   void shrink_ring(std::uint64_t most, std::uint64_t free_floor) const;
 
  private:

@@ -87,9 +87,10 @@ void find_types(std::string_view fields, std::vector<std::string_view>& types) {
 }  // namespace
 
 std::string ros_schema(std::string_view type) {
-  std::string text(fields_of(type));
+  const std::string_view fields = fields_of(type);
   std::vector<std::string_view> types;
-  find_types(text, types);
+  find_types(fields, types);
+  std::string text(fields);
   for (const std::string_view inner : types)
     text += std::string(80, '=') + "\nMSG: " + std::string(inner) + '\n' + std::string(fields_of(inner));
   return text;
