@@ -46,6 +46,7 @@ step_host() {
 # Runs dynslam twice with the same arguments; all files are there, and all but the report are the same.
 twice_the_same() {
   local name files=(map.png map.pgm map.yaml trajectory.tum trajectory_live.tum graph.svg report.json)
+  [[ $1 != sim ]] || files+=(truth.tum recording.mcap)
   first=$(mktemp -d) second=$(mktemp -d)
   trap 'rm -rf "$first" "$second"' EXIT
   toolchain/host.sh run "$@" --out "$first"
@@ -64,6 +65,19 @@ step_sim() {
   toolchain/host.sh run
   [[ -s out/map.png ]]
   twice_the_same sim --headless --speed 0 --duration 60 --seed 7 --world clutter
+  toolchain/host.sh run replay "$first/recording.mcap" --out "$second" --quiet
+  cmp "$first/trajectory.tum" "$second/trajectory.tum"
+  echo "its recording gave the same trajectory"
+}
+
+# What leaves the robot, read with the packages that others read it with.
+step_web() {
+  need ccache
+  command -v npm >/dev/null || need nodejs npm
+  toolchain/host.sh build
+  cd tests/web
+  quietly npm ci --no-audit --no-fund
+  npm run --silent recording
 }
 
 step_asan() {

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/scan.h"
 #include "drive/drive_config.h"
+#include "robot/recorder_config.h"
 #include "server/server_config.h"
 #include "slam/slam_config.h"
 
@@ -45,6 +46,7 @@ struct Config {
   SlamConfig slam;
   DriveConfig drive;
   ServerConfig server;
+  RecorderConfig recorder;
 
   /// Calls `visit(name of the table, struct with fields)` for each table.
   template <class Self, class Visit>
@@ -53,6 +55,7 @@ struct Config {
     visit(std::string_view("slam"), self.slam);
     DriveConfig::sections(self.drive, visit);
     visit(std::string_view("server"), self.server);
+    visit(std::string_view("recorder"), self.recorder);
   }
 };
 

@@ -11,6 +11,7 @@
 #include <spdlog/spdlog.h>
 
 #include "io/safe_file.h"
+#include "log_tap.h"
 #include "progress_bar.h"
 #include "result_files.h"
 #include "robot/stage_clock.h"
@@ -41,6 +42,13 @@ World world_of(const SimOptions& options) {
 std::optional<MissionEnd> turn(TourMission& mission) {
   if (stop_signal != 0) return MissionEnd{"stopped", "asked to"};
   return mission.turn();
+}
+
+/// What became of the recording, where that is not what was wanted.
+void warn_of_recording(const Ports& ports) {
+  const auto recording = ports.recording.get().value;
+  if (recording && !recording->trouble.empty())
+    spdlog::warn("the recording is not whole: {}", recording->trouble);
 }
 
 /// All in this thread, as fast as it goes, repeatable to the bit.
@@ -104,6 +112,8 @@ int run_sim(const SimOptions& options, const Config& config) {
   TourMission mission(
       {world_of(options), options.seed, options.laps, options.duration_s, options.out.has_value(), waits},
       config, *clock);
+  const LogTap tap(mission.robot().ports(), *clock);
+  if (out) mission.robot().ports().recording_wish.put({true, out->reserve("recording.mcap")});
   std::optional<Serving> serving;
   if (!options.headless) {
     if (stepped) throw InputError("--speed 0 knows no time in which to serve: it goes with --headless");
@@ -123,6 +133,7 @@ int run_sim(const SimOptions& options, const Config& config) {
   mission.result.cpu_s = timer.cpu_s();
   tell(options, figures, mission);
   for (const std::string& finding : mission.result.findings) spdlog::warn("{}", finding);
+  warn_of_recording(mission.robot().ports());
   if (out) {
     nlohmann::json report = report_of(mission.result);
     report["mission"] = figures;

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "robot_config.h"
+
 namespace dynslam {
 namespace {
 
@@ -33,7 +35,7 @@ TourMission::TourMission(const TourMissionOptions& options, const Config& config
       keeps_trajectories_(options.keeps_trajectories),
       waits_(options.waits),
       simulator_(std::make_shared<Simulator>(options.world, clock, options.seed)),
-      robot_(make_devices(simulator_), {config.slam, config.drive, config.lidar.mount()}, clock),
+      robot_(make_devices(simulator_), robot_config(config), clock),
       tour_(points_map(options.world, options.laps)) {
   if (!keeps_trajectories_) robot_.slam().keep_path(kPathOfTheHour);
   robot_.on_scan([this](const ScanResult& scan) {

@@ -191,8 +191,8 @@ TEST_F(CommandLine, SimulatesAMissionTwiceTheSame) {
     ASSERT_EQ(o.code, 0) << o.err;
     EXPECT_THAT(o.out, HasSubstr("map picture"));
   }
-  for (const char* name :
-       {"trajectory.tum", "trajectory_live.tum", "truth.tum", "map.pgm", "map.png", "world.svg"}) {
+  for (const char* name : {"trajectory.tum", "trajectory_live.tum", "truth.tum", "map.pgm", "map.png",
+                           "world.svg", "recording.mcap"}) {
     const std::string bytes = contents(folder_ / "a" / name);
     EXPECT_FALSE(bytes.empty()) << name;
     EXPECT_EQ(bytes, contents(folder_ / "b" / name)) << name;
@@ -235,6 +235,27 @@ TEST_F(CommandLine, SimulatesWhatGoesWrong) {
   EXPECT_LT(mission["time_s"].get<double>(), 120.0);
   EXPECT_EQ(mission["kicks"], 1);
   EXPECT_EQ(mission["contacts"], 0);
+}
+
+TEST_F(CommandLine, ReplayOfASimulationGivesItsMap) {
+  const std::string own = folder_ / "own", again = folder_ / "again";
+  ASSERT_EQ(dynslam("sim --headless --speed 0 --duration 30 --out " + own).code, 0);
+  const Outcome o = dynslam("replay " + own + "/recording.mcap --quiet --frames 100000 --out " + again);
+  ASSERT_EQ(o.code, 0) << o.err;
+  for (const char* name : {"trajectory.tum", "trajectory_live.tum", "map.pgm", "map.yaml"})
+    EXPECT_TRUE(contents(own + '/' + name) == contents(again + '/' + name)) << name;
+}
+
+TEST_F(CommandLine, SaysWhenTheRecordingOfASimulationIsNotWhole) {
+  const std::string out = folder_ / "out";
+  fs::create_directory(out);
+  std::ofstream(out + "/recording.mcap") << "of an older run";
+  const Outcome o =
+      dynslam("sim --headless --speed 0 --duration 3 --set recorder.free_floor_mib=1000000 --out " + out);
+  EXPECT_EQ(o.code, 0) << "the map is there all the same";
+  EXPECT_THAT(o.err, HasSubstr("MiB are to stay free"));
+  EXPECT_TRUE(fs::exists(out + "/map.png"));
+  EXPECT_FALSE(fs::exists(out + "/recording.mcap")) << "what is there would be of another run";
 }
 
 TEST_F(CommandLine, NamesWhatIsWrongWithASimulation) {

@@ -48,4 +48,25 @@ TrinaryMap trinary_map(const GridSnapshot& map) {
   return out;
 }
 
+TrinaryMap coarser(const TrinaryMap& map) {
+  const auto half = [](std::int32_t n) { return (n - (n & 1)) / 2; };  // rounds down
+  TrinaryMap out;
+  out.cell_size_m = 2.0 * map.cell_size_m;
+  out.origin = {half(map.origin.x), half(map.origin.y)};
+  if (map.cells.empty()) return out;
+  out.width = half(map.origin.x + map.width - 1) - out.origin.x + 1;
+  out.height = half(map.origin.y + map.height - 1) - out.origin.y + 1;
+  out.cells.assign(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height),
+                   CellState::kUnknown);
+  for (int row = 0; row < map.height; ++row) {
+    for (int column = 0; column < map.width; ++column) {
+      const auto x = static_cast<std::size_t>(half(map.origin.x + column) - out.origin.x);
+      const auto y = static_cast<std::size_t>(half(map.origin.y + row) - out.origin.y);
+      CellState& cell = out.cells[y * static_cast<std::size_t>(out.width) + x];
+      cell = std::max(cell, map.at(column, row));  // in the order unknown, free, occupied
+    }
+  }
+  return out;
+}
+
 }  // namespace dynslam

@@ -27,4 +27,7 @@ struct TrinaryMap {
 /// The smallest rectangle of a map that holds all its known cells; 0 x 0 when there are none.
 TrinaryMap trinary_map(const GridSnapshot& map);
 
+/// The same map with cells of twice the size: occupied where any of the four was, else free where any was.
+TrinaryMap coarser(const TrinaryMap& map);
+
 }  // namespace dynslam

@@ -2,14 +2,9 @@
 #include "io/cdr.h"
 
 namespace dynslam {
-namespace {
-
-constexpr std::size_t kHeader = 4;
-
-}  // namespace
 
 CdrReader::CdrReader(Bytes message) : cursor_(message) {
-  const Bytes header = cursor_.take(kHeader);
+  const Bytes header = cursor_.take(CdrWriter::kHeader);
   if (header.empty()) return;
   // Only plain CDR; parameter lists and the second version (other alignment) are not what ROS 2 writes by
   // default.
@@ -18,7 +13,7 @@ CdrReader::CdrReader(Bytes message) : cursor_(message) {
 }
 
 void CdrReader::align(std::size_t size) {
-  const std::size_t over = (cursor_.position() - kHeader) % size;
+  const std::size_t over = (cursor_.position() - CdrWriter::kHeader) % size;
   if (ok() && over != 0) cursor_.take(size - over);
 }
 
@@ -36,6 +31,29 @@ std::vector<float> CdrReader::floats(std::size_t most) {
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = load<float>(taken.data() + i * sizeof(float), order_);
   return values;
+}
+
+CdrWriter::CdrWriter(std::endian order) : order_(order) {
+  out_.number(std::uint8_t{0}).number(static_cast<std::uint8_t>(order == std::endian::big ? 0 : 1));
+  out_.number(std::uint16_t{0});
+}
+
+CdrWriter& CdrWriter::text(std::string_view text) {
+  put(static_cast<std::uint32_t>(text.size() + 1));
+  out_.raw(text).number(std::uint8_t{0});
+  return *this;
+}
+
+CdrWriter& CdrWriter::floats(std::span<const float> values) {
+  put(static_cast<std::uint32_t>(values.size()));
+  for (const float value : values) out_.number(value, order_);
+  return *this;
+}
+
+CdrWriter& CdrWriter::blob(std::string_view bytes) {
+  put(static_cast<std::uint32_t>(bytes.size()));
+  out_.raw(bytes);
+  return *this;
 }
 
 }  // namespace dynslam

@@ -3,10 +3,14 @@
 
 #include <bit>
 #include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/byte_cursor.h"
+#include "io/byte_writer.h"
 
 namespace dynslam {
 
@@ -36,6 +40,37 @@ class CdrReader {
 
   ByteCursor cursor_;
   std::endian order_ = std::endian::little;
+};
+
+/// Writes such a message, field by field.
+class CdrWriter {
+ public:
+  static constexpr std::size_t kHeader = 4;
+
+  explicit CdrWriter(std::endian order = std::endian::little);
+
+  template <class T>
+  CdrWriter& put(T value) {
+    while ((out_.size() - kHeader) % sizeof(T) != 0) out_.number(std::uint8_t{0});
+    out_.number(value, order_);
+    return *this;
+  }
+  template <class T>
+  CdrWriter& put_all(std::initializer_list<T> values) {
+    for (const T& value : values) put(value);
+    return *this;
+  }
+  CdrWriter& text(std::string_view text);
+  /// A sequence: the count and the values.
+  CdrWriter& floats(std::span<const float> values);
+  /// A sequence of bytes.
+  CdrWriter& blob(std::string_view bytes);
+
+  const std::string& bytes() const { return out_.bytes(); }
+
+ private:
+  std::endian order_;
+  ByteWriter out_;
 };
 
 }  // namespace dynslam

@@ -14,6 +14,16 @@ McapKind kind_of(std::string_view schema) {
   return McapKind::kOther;
 }
 
+/// Whether a map of texts has the key.
+bool has_key(std::string_view map, std::string_view key) {
+  ByteCursor cursor({reinterpret_cast<const std::uint8_t*>(map.data()), map.size()});
+  while (cursor.ok() && cursor.remaining() > 0) {
+    if (cursor.text() == key) return true;
+    cursor.text();
+  }
+  return false;
+}
+
 }  // namespace
 
 // channel (16 bits), sequence (32), log time, publish time (64 each), data
@@ -57,12 +67,14 @@ bool McapChannels::take_channel(Bytes content) {
   const auto schema = schemas_.find(cursor.number<std::uint16_t>());
   const std::string_view topic = cursor.text();
   const std::string_view encoding = cursor.text();
+  const std::string_view metadata = cursor.text();
   if (!cursor.ok()) return false;
   const bool is_known = schema != schemas_.end() && encoding == "cdr";
   McapKind kind = is_known ? schema->second : McapKind::kOther;
   // /tf has the same type, but moves.
   if (kind == McapKind::kTransforms && topic != "/tf_static" && topic != "tf_static") kind = McapKind::kOther;
-  channels_[id] = {kind, std::string(topic.substr(0, kMaxTopicLength))};
+  if (has_key(metadata, kDerivedFromKey)) kind = McapKind::kOther;
+  channels_[id] = {kind, std::string(topic.substr(0, kMaxTopicLength)), has_key(metadata, kOursKey)};
   return true;
 }
 

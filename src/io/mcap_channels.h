@@ -13,9 +13,16 @@ namespace dynslam {
 /// What the messages of a channel are to us.
 enum class McapKind : std::uint8_t { kOther, kScan, kImu, kOdometry, kTransforms };
 
+/// Keys in the metadata of a channel that a robot of ours recorded.
+/// The topic that this one was computed from: it is no sensor of its own, and kOther.
+inline constexpr std::string_view kDerivedFromKey = "dynslam.derived_from";
+/// Written by RosWriter: a stamp of zero is one, and scans may have readings between the beams, see ScanFan.
+inline constexpr std::string_view kOursKey = "dynslam.layout";
+
 struct McapChannel {
   McapKind kind = McapKind::kOther;
   std::string topic;  ///< cut to 256 characters
+  bool ours = false;  ///< see kOursKey
 };
 
 struct McapMessage {

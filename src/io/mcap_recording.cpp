@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/ros_messages.h"
+#include "io/scan_fan.h"
 
 namespace dynslam {
 namespace {
@@ -97,17 +98,17 @@ std::optional<Record> McapRecording::take_message(Bytes content) {
     skipped_.add(channel->topic);
     return std::nullopt;
   }
-  std::optional<Record> record = decode(channel->kind, *message);
+  std::optional<Record> record = decode(*channel, *message);
   if (record) used_topic = channel->topic;
   return record;
 }
 
-std::optional<Record> McapRecording::decode(McapKind kind, const McapMessage& message) {
-  switch (kind) {
+std::optional<Record> McapRecording::decode(const McapChannel& channel, const McapMessage& message) {
+  switch (channel.kind) {
     case McapKind::kScan:
-      return decode_scan(message);
+      return decode_scan(message, channel.ours);
     case McapKind::kImu:
-      return decode_imu_sample(message);
+      return decode_imu_sample(message, channel.ours);
     case McapKind::kOdometry:
       return decode_odometry_sample(message);
     case McapKind::kTransforms:
@@ -119,31 +120,33 @@ std::optional<Record> McapRecording::decode(McapKind kind, const McapMessage& me
   return std::nullopt;
 }
 
-std::optional<Record> McapRecording::decode_scan(const McapMessage& message) {
+std::optional<Record> McapRecording::decode_scan(const McapMessage& message, bool ours) {
   std::optional<RosMessage<Scan>> scan = decode_laser_scan(message.data);
   if (!scan) {
     counters_.add("scan.bad");
     return std::nullopt;
   }
-  const std::optional<Time> stamp = stamp_of(scan->header.stamp, message);
+  const std::optional<Time> stamp = stamp_of(scan->header.stamp, message, ours);
   if (!stamp) return std::nullopt;
+  if (ours) drop_gaps(scan->value);
   scan->value.stamp = *stamp;
   scan->value.mount = mount_of(scan->header.frame_id);
   ++scans_;
   return std::move(scan->value);
 }
 
-std::optional<Record> McapRecording::decode_imu_sample(const McapMessage& message) {
+std::optional<Record> McapRecording::decode_imu_sample(const McapMessage& message, bool ours) {
   ImuFault fault = ImuFault::kNone;
   const RosMessage<Eigen::Quaterniond> imu = decode_imu(message.data, fault);
   if (fault != ImuFault::kNone) {
     counters_.add(name_of(fault));
     return std::nullopt;
   }
-  const std::optional<Time> stamp = stamp_of(imu.header.stamp, message);
+  const std::optional<Time> stamp = stamp_of(imu.header.stamp, message, ours);
   if (!stamp) return std::nullopt;
   Eigen::Quaterniond world_q_robot = imu.value;
-  if (const auto robot_T_imu = tree_.robot_T(imu.header.frame_id)) {
+  const auto robot_T_imu = tree_.robot_T(imu.header.frame_id);
+  if (robot_T_imu && robot_T_imu->linear() != Eigen::Matrix3d::Identity()) {
     world_q_robot = (imu.value * Eigen::Quaterniond(robot_T_imu->linear()).inverse()).normalized();
   }
   return ImuSample{*stamp, world_q_robot};
@@ -155,14 +158,14 @@ std::optional<Record> McapRecording::decode_odometry_sample(const McapMessage& m
     counters_.add("odometry.bad");
     return std::nullopt;
   }
-  const std::optional<Time> stamp = stamp_of(odometry->header.stamp, message);
+  const std::optional<Time> stamp = stamp_of(odometry->header.stamp, message, false);
   if (!stamp) return std::nullopt;
   return OdometrySample{*stamp, odometry->value};
 }
 
 /// The sensor's own stamp, or, where the driver left it zero, when the message was recorded.
-std::optional<Time> McapRecording::stamp_of(Time stamp, const McapMessage& message) {
-  if (stamp != Time{}) return stamp;
+std::optional<Time> McapRecording::stamp_of(Time stamp, const McapMessage& message, bool ours) {
+  if (ours || stamp != Time{}) return stamp;
   if (message.log_time_ns > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()) ||
       !is_representable_s(static_cast<double>(message.log_time_ns) * 1e-9)) {
     counters_.add("stamp.bad");
@@ -179,7 +182,14 @@ LidarMount McapRecording::mount_of(std::string_view frame) {
   if (std::abs(axes(2, 2)) < kLevel) counters_.add("tf.tilted_lidar");
   const Eigen::Vector3d at = robot_T_lidar->translation();
   // Where the lidar's x axis points; for one that hangs upside down this is the yaw before the roll by pi.
-  return {{at.x(), at.y(), std::atan2(axes(1, 0), axes(0, 0))}, axes(2, 2) < 0.0};
+  return {{at.x(), at.y(), std::atan2(axes(1, 0), axes(0, 0))}, axes(2, 2) < 0.0, height_of(frame)};
+}
+
+/// What a small robot's lidar can have; else what was configured.
+double McapRecording::height_of(std::string_view frame) const {
+  constexpr double kLow_m = 0.02, kHigh_m = 3.0;
+  const double height_m = tree_.height_m(frame).value_or(0.0);
+  return height_m >= kLow_m && height_m <= kHigh_m ? height_m : config_mount_.height_m;
 }
 
 }  // namespace dynslam

@@ -34,12 +34,13 @@ class McapRecording final : public Recording {
 
  private:
   std::optional<Record> take_message(Bytes content);
-  std::optional<Record> decode(McapKind kind, const McapMessage& message);
-  std::optional<Record> decode_scan(const McapMessage& message);
-  std::optional<Record> decode_imu_sample(const McapMessage& message);
+  std::optional<Record> decode(const McapChannel& channel, const McapMessage& message);
+  std::optional<Record> decode_scan(const McapMessage& message, bool ours);
+  std::optional<Record> decode_imu_sample(const McapMessage& message, bool ours);
   std::optional<Record> decode_odometry_sample(const McapMessage& message);
-  std::optional<Time> stamp_of(Time stamp, const McapMessage& message);
+  std::optional<Time> stamp_of(Time stamp, const McapMessage& message, bool ours);
   LidarMount mount_of(std::string_view frame);
+  double height_of(std::string_view frame) const;
   void finish();
 
   std::unique_ptr<ByteSource> source_;

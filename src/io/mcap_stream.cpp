@@ -9,7 +9,6 @@
 namespace dynslam {
 namespace {
 
-constexpr std::size_t kHeadSize = 9;       // opcode, length
 constexpr std::size_t kMaxChunkHead = 64;  // a name of 24 characters; the known ones have four at most
 
 bool is_wanted(McapOpcode opcode) {
@@ -90,15 +89,15 @@ std::optional<McapRecord> McapStream::next_in_chunk() {
 /// other record that the file has not all of is the end.
 std::optional<McapStream::Head> McapStream::read_head() {
   const std::uint64_t at = source_.position();
-  std::uint8_t raw[kHeadSize] = {};
-  const std::size_t got = source_.read(raw, kHeadSize);
+  std::uint8_t raw[kMcapRecordHead] = {};
+  const std::size_t got = source_.read(raw, kMcapRecordHead);
   const Head head{static_cast<McapOpcode>(raw[0]), at,
-                  got == kHeadSize ? load<std::uint64_t>(raw + 1, std::endian::little) : 0};
+                  got == kMcapRecordHead ? load<std::uint64_t>(raw + 1, std::endian::little) : 0};
   if (!source_.fault().empty()) {
     fail(at, source_.fault());
   } else if (got == 0) {
     fail(at, "the file ends before its end mark");
-  } else if (got < kHeadSize) {
+  } else if (got < kMcapRecordHead) {
     fail(at, "the file ends inside a record");
   } else if (raw[0] == 0) {
     fail(at, "no record begins here");

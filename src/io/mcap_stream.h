@@ -4,27 +4,15 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/counters.h"
 #include "io/byte_cursor.h"
 #include "io/byte_source.h"
 #include "io/chunk_unpacker.h"
+#include "io/mcap_format.h"
 
 namespace dynslam {
-
-inline constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
-
-enum class McapOpcode : std::uint8_t {
-  kHeader = 0x01,
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kDataEnd = 0x0F,
-};
 
 struct McapRecord {
   McapOpcode opcode;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kMaxScanDuration = 100.0;  // seconds
 constexpr double kUnitTolerance = 0.1;
+constexpr double kRounding = 1e-14;  // nearer to one than this, normalizing only stirs the last bits
 
 RosHeader read_header(CdrReader& cdr) {
   const auto seconds = cdr.number<std::int32_t>();
@@ -78,7 +79,7 @@ RosMessage<Eigen::Quaterniond> decode_imu(Bytes bytes, ImuFault& fault) {
     fault = ImuFault::kNoOrientation;  // the message's own way to say that the field means nothing
   } else if (!is_near_unit(imu.value)) {
     fault = ImuFault::kBadQuaternion;
-  } else {
+  } else if (std::abs(imu.value.squaredNorm() - 1.0) > kRounding) {
     imu.value.normalize();
   }
   return imu;

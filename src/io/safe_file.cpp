@@ -106,19 +106,35 @@ void OutputFolder::discard(const std::string& name) noexcept {
   ::unlinkat(folder_, temporary_name(name).c_str(), 0);
 }
 
+std::string OutputFolder::shown(const std::string& name) const {
+  return (std::filesystem::path(path_) / name).string();
+}
+
+/// Told early, because a rename that cannot work must not turn up halfway through commit().
+void OutputFolder::refuse_folder(const std::string& name) const {
+  struct stat there {};
+  if (::fstatat(folder_, name.c_str(), &there, 0) == 0 && S_ISDIR(there.st_mode))
+    throw std::runtime_error(cannot_write(shown(name), EISDIR));
+}
+
+std::string OutputFolder::reserve(const std::string& name) {
+  refuse_folder(name);
+  discard(name);  // what a killed run may have left behind
+  std::erase(staged_, name);
+  staged_.push_back(name);
+  reserved_.push_back(name);
+  return shown(temporary_name(name));
+}
+
 void OutputFolder::stage(const std::string& name, std::string_view bytes) {
   stage(name, [bytes](const ByteSink& sink) { sink(bytes); });
 }
 
 void OutputFolder::stage(const std::string& name, const std::function<void(const ByteSink&)>& write) {
-  const std::string shown_path = (std::filesystem::path(path_) / name).string();
-  // Told now, because a rename that cannot work must not turn up halfway through commit().
-  if (struct stat there{}; ::fstatat(folder_, name.c_str(), &there, 0) == 0 && S_ISDIR(there.st_mode)) {
-    throw std::runtime_error(cannot_write(shown_path, EISDIR));
-  }
+  refuse_folder(name);
   std::erase(staged_, name);
   try {
-    FileInWork file(folder_, temporary_name(name), shown_path);
+    FileInWork file(folder_, temporary_name(name), shown(name));
     write([&file](std::string_view bytes) { file.write(bytes); });
     file.finish();
     staged_.push_back(name);
@@ -131,9 +147,10 @@ void OutputFolder::stage(const std::string& name, const std::function<void(const
 void OutputFolder::commit() {
   while (!staged_.empty()) {
     const std::string& name = staged_.front();
-    if (::renameat(folder_, temporary_name(name).c_str(), folder_, name.c_str()) != 0) {
-      throw std::runtime_error(cannot_write((std::filesystem::path(path_) / name).string(), errno));
-    }
+    const bool renamed = ::renameat(folder_, temporary_name(name).c_str(), folder_, name.c_str()) == 0;
+    const bool never_written = errno == ENOENT && std::count(reserved_.begin(), reserved_.end(), name) > 0;
+    if (!renamed && !never_written) throw std::runtime_error(cannot_write(shown(name), errno));
+    if (!renamed) ::unlinkat(folder_, name.c_str(), 0);
     staged_.erase(staged_.begin());
   }
   ::fsync(folder_);  // best effort: the files are whole in any case

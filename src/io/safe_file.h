@@ -38,6 +38,10 @@ class OutputFolder {
   /// sink.
   void stage(const std::string& name, const std::function<void(const ByteSink&)>& write);
 
+  /// Stages a file that is written elsewhere, bit by bit, and returns where: a path where nothing is. What is
+  /// there at commit() gets the name; if nothing is, an older file of the name goes. Throws as stage() does.
+  std::string reserve(const std::string& name);
+
   /// Gives every staged file its final name. Throws std::runtime_error.
   void commit();
 
@@ -47,10 +51,12 @@ class OutputFolder {
   void open_and_lock();
   void try_writing();
   void discard(const std::string& name) noexcept;
+  void refuse_folder(const std::string& name) const;
+  std::string shown(const std::string& name) const;
 
   std::string path_;
   int folder_ = -1;
-  std::vector<std::string> staged_;
+  std::vector<std::string> staged_, reserved_;
 };
 
 }  // namespace dynslam

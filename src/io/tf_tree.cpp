@@ -42,6 +42,24 @@ std::optional<Eigen::Isometry3d> TfTree::robot_T(std::string_view frame) const {
   return std::nullopt;
 }
 
+std::optional<double> TfTree::height_m(std::string_view frame) const {
+  constexpr std::string_view kFloor = "base_footprint";
+  frame = without_slash(frame);
+  const auto root_T_floor = chain("", kFloor), root_T_frame = chain("", frame);
+  if (!root_T_floor || !root_T_frame || root_of(kFloor) != root_of(frame)) return std::nullopt;
+  return (root_T_floor->inverse() * *root_T_frame).translation().z();
+}
+
+/// REQUIRES: no circle above the frame.
+std::string_view TfTree::root_of(std::string_view frame) const {
+  auto link = links_.find(frame);
+  while (link != links_.end()) {
+    frame = link->second.parent;
+    link = links_.find(frame);
+  }
+  return frame;
+}
+
 /// Climbs from the frame to `base`, or to the root if that is empty.
 std::optional<Eigen::Isometry3d> TfTree::chain(std::string_view base, std::string_view frame) const {
   Eigen::Isometry3d at_T_frame = Eigen::Isometry3d::Identity();

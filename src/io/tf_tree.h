@@ -27,6 +27,9 @@ class TfTree {
   /// hangs from. Nothing if the tree does not know the frame, or goes in circles above it.
   std::optional<Eigen::Isometry3d> robot_T(std::string_view frame) const;
 
+  /// How high the frame is above `base_footprint`, metres. Nothing if they do not hang together.
+  std::optional<double> height_m(std::string_view frame) const;
+
  private:
   struct Link {
     std::string parent;
@@ -34,6 +37,7 @@ class TfTree {
   };
   std::optional<Eigen::Isometry3d> chain(std::string_view base, std::string_view frame) const;
   bool is_parent(std::string_view frame) const;
+  std::string_view root_of(std::string_view frame) const;
 
   std::map<std::string, Link, std::less<>> links_;  ///< by child
 };

@@ -12,6 +12,7 @@
 #include "base/counters.h"
 #include "base/drive_command.h"
 #include "base/jpeg_frame.h"
+#include "base/log_line.h"
 #include "base/motor_state.h"
 #include "base/scan.h"
 #include "base/verdict.h"
@@ -41,6 +42,22 @@ struct DriveState {
   BatteryState battery;
 };
 
+/// Whether what happens is to be recorded; newest wins.
+struct RecordingWish {
+  bool on = false;
+  std::string file = {};  ///< where to; empty: a new one in the folder of recordings. Not for outsiders
+};
+
+struct RecordingState {
+  bool active = false;
+  bool asked_for = false;  ///< false: the ring, or nothing
+  std::string file;        ///< the last one
+  std::uint64_t bytes = 0, messages = 0;
+  double seconds = 0.0;
+  std::uint64_t dropped = 0;  ///< samples that came faster than they could be written, ever
+  std::string trouble;        ///< why the last one ended before it was told to; empty when it did not
+};
+
 /// The pipes of a robot that outsiders may touch: the server, missions, recorders. Any thread.
 struct Ports {
   // To the robot.
@@ -50,6 +67,8 @@ struct Ports {
   std::atomic<bool> clear_asked{
       false};                    ///< a person clears latched stops; a stop asked for at the same time wins
   std::atomic<int> watchers{0};  ///< of the video: the camera runs while there are any
+  Latest<RecordingWish> recording_wish;
+  BoundedQueue<LogLine> log{256};  ///< for recordings; one that begins has the lines before it too
 
   // From the robot.
   Latest<WorldState> world;
@@ -57,6 +76,7 @@ struct Ports {
   Latest<DriveState> drive;
   Latest<JpegFrame> video;
   Latest<Counters> slam_counters, graph_counters, drive_counters;  ///< about once a second
+  Latest<RecordingState> recording;
   Latest<DeviceHealth> lidar_health, imu_health, motors_health, camera_health, pins_health;
 };
 

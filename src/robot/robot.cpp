@@ -8,6 +8,7 @@ namespace dynslam {
 namespace {
 
 constexpr Duration kNobodyWatches = std::chrono::milliseconds(100);
+constexpr std::chrono::seconds kDiskPatience{5};
 
 }  // namespace
 
@@ -17,12 +18,15 @@ Robot::Robot(Devices devices, const RobotConfig& config, const Clock& clock)
       slam_(config.slam),
       slam_stage_(slam_, ports_, clock),
       control_(devices_.motors.get(), devices_.pins.get(), config.drive, clock, ports_, newest_imu_,
-               devices_.imu != nullptr) {
+               devices_.imu != nullptr),
+      recorder_(config.recorder, config.recording_about, clock, ports_) {
   slam_.follow();
+  slam_stage_.on_scan([this](const ScanResult& result) { take(result); });
   if (devices_.lidar) {
     const auto take = [this](Scan scan) {
       const auto shared = std::make_shared<const Scan>(std::move(scan));
       ports_.scan.put(shared);
+      recorder_.add(shared);
       slam_stage_.add(shared);
     };
     lidar_.emplace([this](Time until) { return devices_.lidar->next(until); }, take, clock,
@@ -31,12 +35,17 @@ Robot::Robot(Devices devices, const RobotConfig& config, const Clock& clock)
   if (devices_.imu) {
     const auto take = [this](const ImuSample& sample) {
       newest_imu_.put(sample);
+      recorder_.add(sample);
       slam_stage_.add(sample);
     };
     imu_.emplace([this](Time until) { return devices_.imu->next(until); }, take, clock, ports_.imu_health);
   }
   if (devices_.camera) {
-    const auto take = [this](JpegFrame frame) { ports_.video.put(std::move(frame)); };
+    const auto take = [this](JpegFrame frame) {
+      const auto shared = std::make_shared<const JpegFrame>(std::move(frame));
+      ports_.video.put(shared);
+      if (recorder_.wants_pictures()) recorder_.add(shared);
+    };
     camera_.emplace([this](Time until) { return devices_.camera->next(until); }, take, clock,
                     ports_.camera_health);
   }
@@ -46,6 +55,10 @@ Robot::~Robot() { stop(); }
 
 void Robot::start() {
   slam_.close_loops_elsewhere();
+  recorder_.run_live();
+  recorder_.turn();  // a recording that is wished for already misses nothing
+  start_thread("recorder", [this] { run_recorder(); });
+  threads_.back().grace = kDiskPatience;
   start_thread("control", [this] { run_control(); });
   if (lidar_) start_thread("lidar", [this] { lidar_->turn(stop_); });
   if (imu_) start_thread("imu", [this] { imu_->turn(stop_); });
@@ -66,18 +79,37 @@ void Robot::start_thread(const char* name, std::function<void()> turn) {
     }
     ended.set_value();
   };
-  threads_.push_back({std::thread(std::move(run)), std::move(end)});
+  threads_.push_back({std::thread(std::move(run)), std::move(end), {}});
 }
 
 /// Ticks until the end, and stands still then, whatever it is that ends it.
 void Robot::run_control() {
   try {
-    while (!stop_.wait(clock_.steady(control_.due()))) control_.turn();
+    while (!stop_.wait(clock_.steady(control_.due()))) control_turn();
   } catch (...) {
     control_.halt();
     throw;
   }
   control_.halt();
+}
+
+void Robot::run_recorder() {
+  while (!stop_.requested()) recorder_.turn();
+  recorder_.finish();
+}
+
+void Robot::control_turn() {
+  control_.turn();
+  if (!recorder_.active()) return;
+  const auto command = ports_.command.get();
+  if (command.value && std::exchange(command_recorded_, command.version) != command.version)
+    recorder_.add(*command.value);
+  recorder_.add(ports_.drive.get().value);
+}
+
+void Robot::take(const ScanResult& r) {
+  recorder_.add(PoseFix{{r.stamp, r.map_T_robot, r.covariance, r.quality, r.lost}, r.map_T_odom});
+  if (notice_) notice_(r);
 }
 
 void Robot::poll_camera() {
@@ -91,10 +123,11 @@ void Robot::poll_camera() {
 Robot::Ending Robot::stop(std::chrono::milliseconds patience) {
   stop_.request();
   slam_stage_.close();
+  recorder_.close();
   const auto deadline = std::chrono::steady_clock::now() + patience;
   Ending ending;
   for (Thread& t : threads_) {
-    if (t.ended.wait_until(deadline) != std::future_status::ready) ending.hangs = true;
+    if (t.ended.wait_until(deadline + t.grace) != std::future_status::ready) ending.hangs = true;
   }
   ending.trouble = stop_.trouble();
   if (ending.hangs) return ending;
@@ -104,6 +137,7 @@ Robot::Ending Robot::stop(std::chrono::milliseconds patience) {
 }
 
 void Robot::step() {
+  recorder_.turn();
   if (imu_) {
     while (imu_->turn(stop_)) {
     }
@@ -114,14 +148,18 @@ void Robot::step() {
   }
   if (camera_ && ports_.watchers > 0) camera_->turn(stop_);
   slam_stage_.turn();
-  if (clock_.now() >= control_.due()) control_.turn();
+  if (clock_.now() >= control_.due()) control_turn();
 }
 
-void Robot::finish() { slam_stage_.finish(); }
+void Robot::finish() {
+  recorder_.finish();
+  slam_stage_.finish();
+}
 
 Counters Robot::counters() const {
   Counters all = slam_.counters();
   for (const auto& [name, n] : slam_stage_.queue_counters()) all.add(name, n);
+  if (recorder_.dropped() > 0) all.add("queue.recorder_dropped", recorder_.dropped());
   for (const auto& [name, n] : control_.control().refused()) all.add(name, n);
   return all;
 }

@@ -13,6 +13,7 @@
 #include "drive/drive_config.h"
 #include "robot/control_stage.h"
 #include "robot/ports.h"
+#include "robot/recorder_stage.h"
 #include "robot/sensor_stage.h"
 #include "robot/slam_stage.h"
 #include "robot/stop_signal.h"
@@ -23,6 +24,8 @@ struct RobotConfig {
   SlamConfig slam;
   DriveConfig drive;
   LidarMount lidar_mount;
+  RecorderConfig recorder;
+  RecordingAbout recording_about;
 };
 
 /// The whole robot: its devices, and the stages between them and the ports (design, section 6). Runs in one
@@ -47,16 +50,17 @@ class Robot {
     std::string trouble;  ///< what went wrong; empty when nothing did
     bool hangs = false;   ///< a thread hangs in a device: nothing is safe now but to end the program
   };
-  /// Motors first, then everything else. No thread is waited for longer than `patience`.
+  /// Motors first, then everything else. No thread is waited for longer than `patience`; but the recorder's,
+  /// which may have to wait for a disk, for some seconds.
   Ending stop(std::chrono::milliseconds patience = std::chrono::milliseconds(600));
 
   /// Instead of threads: works off all that is due by the clock.
   void step();
 
   /// Told of each scan, by the thread of SLAM.
-  void on_scan(SlamStage::Notice notice) { slam_stage_.on_scan(std::move(notice)); }
-  /// Takes in what is under way and draws the map for the last time. REQUIRES (these two): not started, or
-  /// stopped.
+  void on_scan(SlamStage::Notice notice) { notice_ = std::move(notice); }
+  /// Takes in what is under way, ends a recording and draws the map for the last time. REQUIRES (these two):
+  /// not started, or stopped.
   void finish();
   Slam& slam() { return slam_; }
   const DriveControl& control() const { return control_.control(); }
@@ -65,6 +69,9 @@ class Robot {
  private:
   void start_thread(const char* name, std::function<void()> turn);
   void run_control();
+  void control_turn();
+  void run_recorder();
+  void take(const ScanResult& result);
   void poll_camera();
 
   Devices devices_;
@@ -74,13 +81,17 @@ class Robot {
   Latest<ImuSample> newest_imu_;
   Slam slam_;
   SlamStage slam_stage_;
+  SlamStage::Notice notice_;
   ControlStage control_;
+  RecorderStage recorder_;
+  std::uint64_t command_recorded_ = 0;  ///< version of the port; the thread of the control
   std::optional<SensorStage<Scan>> lidar_;
   std::optional<SensorStage<ImuSample>> imu_;
   std::optional<SensorStage<JpegFrame>> camera_;
   struct Thread {
     std::thread thread;
     std::future<void> ended;
+    std::chrono::milliseconds grace{};  ///< it is waited for so much longer than the others
   };
   std::vector<Thread> threads_;
 };

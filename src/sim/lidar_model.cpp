@@ -16,6 +16,11 @@ constexpr double kEdge_m = 0.25;   // a step in range that a beam's spot can str
 constexpr double kMixed = 0.25;    // share of beams at such an edge that do
 constexpr double kDarkRange_m = 10.0;
 
+// Steps that fit into the numbers of a sensor_msgs/LaserScan: a recording says exactly what was measured.
+constexpr auto kFirst_rad = static_cast<float>(-kPi),
+               kStep_rad = static_cast<float>(kTwoPi / LidarModel::kBeams);
+constexpr auto kStep_s = static_cast<float>(to_seconds(LidarModel::kTurn) / LidarModel::kBeams);
+
 }  // namespace
 
 LidarModel::LidarModel(Time begin, std::uint64_t seed) : random_(seed, 2) { begin_turn(begin); }
@@ -57,7 +62,7 @@ void LidarModel::step(Duration length, const BodyPose& at_begin, const BodyPose&
     const auto i = static_cast<int>(scan_.beams.size());
     const BodyPose pose = interpolate(at_begin, at_end, static_cast<double>(k) / beams);
     const Eigen::Quaterniond world_q_robot = pose.world_q_robot();
-    const double angle = -kPi + kTwoPi * i / kBeams;
+    const double angle = double{kFirst_rad} + i * double{kStep_rad};
     const Vector2 along = unit(angle);
     const Eigen::Vector3d ahead = world_q_robot * Eigen::Vector3d(along.x(), along.y(), 0.0);
     const Eigen::Vector3d mast = world_q_robot * Eigen::Vector3d(0.0, 0.0, kLidarHeight_m);
@@ -71,7 +76,7 @@ void LidarModel::step(Duration length, const BodyPose& at_begin, const BodyPose&
     ray.glass_cosine = random_.uniform(0.97, 1.0);
     const double range_m = measured_m(ray, caster);
     scan_.beams.push_back(
-        {static_cast<float>(angle), static_cast<float>(range_m), static_cast<float>(i * beam_s)});
+        {static_cast<float>(angle), static_cast<float>(range_m), static_cast<float>(i * double{kStep_s})});
   }
   if (scan_.beams.size() < kBeams) return;
   const Time next = scan_.stamp + kTurn;

@@ -32,6 +32,7 @@ std::optional<ScanResult> Slam::next(bool at_end) {
   ScanResult result;
   result.stamp = fix->stamp;
   result.map_T_robot = map_T_drawn_ * fix->drawn_T_robot;
+  result.map_T_odom = map_T_drawn_;
   result.covariance = fix->covariance;
   result.score = fix->score;
   result.quality = fix->quality;

@@ -20,6 +20,7 @@ namespace dynslam {
 struct ScanResult {
   Time stamp;
   Pose2 map_T_robot;  ///< at the stamp, as known now
+  Pose2 map_T_odom;   ///< where the frame lies in which scans follow each other smoothly; jumps with a loop
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double score = 0.0;     ///< as MatchResult; 1 for the first scan
   double quality = 0.0;   ///< 0 to 1: how far the pose is to be trusted

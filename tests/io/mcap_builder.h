@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -17,64 +15,26 @@
 #include <zlib.h>
 #include <zstd.h>
 
+#include "io/cdr.h"
+#include "io/mcap_format.h"
+
 namespace dynslam::test {
 
 /// The bytes of a number, least significant first.
 template <class T>
 std::string le(T value) {
-  std::string raw(sizeof(T), '\0');
-  const auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
-  std::copy(bytes.begin(), bytes.end(), raw.begin());
-  if constexpr (std::endian::native == std::endian::big) std::reverse(raw.begin(), raw.end());
-  return raw;
+  return ByteWriter().number(value).bytes();
 }
 
-inline std::string le_text(std::string_view text) {
-  return le(static_cast<std::uint32_t>(text.size())) + std::string(text);
+inline std::string le_text(std::string_view text) { return ByteWriter().text(text).bytes(); }
+
+using dynslam::CdrWriter;
+
+inline CdrWriter& put_header(CdrWriter& cdr, std::int64_t stamp_ns, std::string_view frame) {
+  cdr.put(static_cast<std::int32_t>(stamp_ns / 1'000'000'000));
+  cdr.put(static_cast<std::uint32_t>(stamp_ns % 1'000'000'000));
+  return cdr.text(frame);
 }
-
-/// Writes a message in CDR.
-class CdrWriter {
- public:
-  explicit CdrWriter(bool big_endian = false) : big_endian_(big_endian), bytes_(4, '\0') {
-    bytes_[1] = big_endian ? 0 : 1;
-  }
-
-  template <class T>
-  CdrWriter& put(T value) {
-    while ((bytes_.size() - 4) % sizeof(T) != 0) bytes_ += '\0';
-    std::string raw = le(value);
-    if (big_endian_) std::reverse(raw.begin(), raw.end());
-    bytes_ += raw;
-    return *this;
-  }
-  template <class T>
-  CdrWriter& put_all(std::initializer_list<T> values) {
-    for (const T& value : values) put(value);
-    return *this;
-  }
-  CdrWriter& text(std::string_view text) {
-    put(static_cast<std::uint32_t>(text.size() + 1));
-    bytes_ += text;
-    bytes_ += '\0';
-    return *this;
-  }
-  CdrWriter& floats(std::span<const float> values) {
-    put(static_cast<std::uint32_t>(values.size()));
-    for (const float value : values) put(value);
-    return *this;
-  }
-  CdrWriter& header(std::int64_t stamp_ns, std::string_view frame) {
-    put(static_cast<std::int32_t>(stamp_ns / 1'000'000'000));
-    put(static_cast<std::uint32_t>(stamp_ns % 1'000'000'000));
-    return text(frame);
-  }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  bool big_endian_;
-  std::string bytes_;
-};
 
 struct LaserScanFields {
   std::int64_t stamp_ns = 1'000'000'000;
@@ -90,8 +50,12 @@ struct LaserScanFields {
 
 inline std::string laser_scan(const LaserScanFields& f) {
   const float last = f.angle_min + f.angle_increment * static_cast<float>(f.ranges.size());
-  CdrWriter cdr(f.big_endian);
-  cdr.header(f.stamp_ns, f.frame).put(f.angle_min).put(last).put(f.angle_increment).put(f.time_increment);
+  CdrWriter cdr(f.big_endian ? std::endian::big : std::endian::little);
+  put_header(cdr, f.stamp_ns, f.frame)
+      .put(f.angle_min)
+      .put(last)
+      .put(f.angle_increment)
+      .put(f.time_increment);
   return cdr.put(0.1F).put(f.range_min).put(f.range_max).floats(f.ranges).floats({}).bytes();
 }
 
@@ -102,14 +66,14 @@ struct Quaternion {
 inline std::string imu(std::int64_t stamp_ns, const Quaternion& q, double covariance = 0.0,
                        std::string_view frame = "imu") {
   CdrWriter cdr;
-  cdr.header(stamp_ns, frame).put_all({q.x, q.y, q.z, q.w}).put(covariance);
+  put_header(cdr, stamp_ns, frame).put_all({q.x, q.y, q.z, q.w}).put(covariance);
   for (int i = 0; i < 8 + 3 + 9 + 3 + 9; ++i) cdr.put(0.0);
   return cdr.bytes();
 }
 
 inline std::string odometry(std::int64_t stamp_ns, double x, double y, const Quaternion& q) {
   CdrWriter cdr;
-  cdr.header(stamp_ns, "odom").text("base_link").put_all({x, y, 0.0, q.x, q.y, q.z, q.w});
+  put_header(cdr, stamp_ns, "odom").text("base_link").put_all({x, y, 0.0, q.x, q.y, q.z, q.w});
   for (int i = 0; i < 36 + 6 + 36; ++i) cdr.put(0.0);
   return cdr.bytes();
 }
@@ -124,7 +88,7 @@ inline std::string transforms(const std::vector<TransformFields>& all) {
   CdrWriter cdr;
   cdr.put(static_cast<std::uint32_t>(all.size()));
   for (const TransformFields& t : all) {
-    cdr.header(0, t.parent).text(t.child).put_all({t.x, t.y, t.z, t.q.x, t.q.y, t.q.z, t.q.w});
+    put_header(cdr, 0, t.parent).text(t.child).put_all({t.x, t.y, t.z, t.q.x, t.q.y, t.q.z, t.q.w});
   }
   return cdr.bytes();
 }
@@ -141,10 +105,13 @@ class McapBuilder {
 
   McapBuilder() : McapBuilder(Options{}) {}
   explicit McapBuilder(Options options) : options_(std::move(options)), file_(magic()) {
-    file_ += record(0x01, le_text("ros2") + le_text("dynslam test"));
+    file_ += record(McapOpcode::kHeader, le_text("ros2") + le_text("dynslam test"));
   }
 
-  static std::string magic() { return std::string("\x89MCAP0\r\n", 8); }
+  static std::string magic() { return std::string(kMcapMagic); }
+  static std::string record(McapOpcode opcode, std::string_view content) {
+    return record(static_cast<std::uint8_t>(opcode), content);
+  }
   static std::string record(std::uint8_t opcode, std::string_view content) {
     return static_cast<char>(opcode) + le(static_cast<std::uint64_t>(content.size())) + std::string(content);
   }
@@ -153,8 +120,9 @@ class McapBuilder {
                             std::string_view encoding = "cdr") {
     const auto id = static_cast<std::uint16_t>(++channels_);
     const std::string definition =
-        record(0x03, le(id) + le_text(schema) + le_text("ros2msg") + le_text("# whatever")) +
-        record(0x04, le(id) + le(id) + le_text(topic) + le_text(encoding) + le(std::uint32_t{0}));
+        record(McapOpcode::kSchema, le(id) + le_text(schema) + le_text("ros2msg") + le_text("# whatever")) +
+        record(McapOpcode::kChannel,
+               le(id) + le(id) + le_text(topic) + le_text(encoding) + le(std::uint32_t{0}));
     definitions_ += definition;
     add_records(definition);
     return id;
@@ -178,7 +146,7 @@ class McapBuilder {
   void end_chunk() {
     if (chunk_.empty()) return;
     file_ += chunk_record(chunk_, *options_.compression, options_.has_crc);
-    file_ += record(0x07, le(std::uint16_t{1}) + le(std::uint32_t{0}));
+    file_ += record(McapOpcode::kMessageIndex, le(std::uint16_t{1}) + le(std::uint32_t{0}));
     chunk_.clear();
   }
 
@@ -186,9 +154,9 @@ class McapBuilder {
   std::string finish() {
     end_chunk();
     data_end_ = file_.size();
-    file_ += record(0x0F, le(std::uint32_t{0}));
-    if (options_.has_summary) file_ += definitions_ + record(0x0B, std::string(46, '\0'));
-    file_ += record(0x02, std::string(20, '\0')) + magic();
+    file_ += record(McapOpcode::kDataEnd, le(std::uint32_t{0}));
+    if (options_.has_summary) file_ += definitions_ + record(McapOpcode::kStatistics, std::string(46, '\0'));
+    file_ += record(McapOpcode::kFooter, std::string(20, '\0')) + magic();
     return file_;
   }
   std::size_t data_end() const { return data_end_; }
@@ -202,9 +170,9 @@ class McapBuilder {
   }
   static std::string chunk_record_of(std::string_view packed, std::uint64_t size, std::uint32_t crc,
                                      std::string_view compression) {
-    return record(0x06, le(std::uint64_t{0}) + le(std::uint64_t{0}) + le(size) + le(crc) +
-                            le_text(compression) + le(static_cast<std::uint64_t>(packed.size())) +
-                            std::string(packed));
+    return record(McapOpcode::kChunk,
+                  le(std::uint64_t{0}) + le(std::uint64_t{0}) + le(size) + le(crc) + le_text(compression) +
+                      le(static_cast<std::uint64_t>(packed.size())) + std::string(packed));
   }
 
   static std::string pack(std::string_view bytes, std::string_view compression) {
