@@ -20,11 +20,6 @@ const Folders kLayer0 = {"base"};
 const Folders kLayer1 = {"base", "grid", "pipe"};
 const Folders kLayer2 = {"base", "grid", "pipe", "plan", "drive", "device"};
 
-Folders with(Folders set, const std::string& one) {
-  set.insert(one);
-  return set;
-}
-
 /// What each folder may include besides itself; a folder that is not named may include nothing.
 const std::map<std::string, Folders> kMayInclude = {
     {"base", {}},
@@ -39,15 +34,14 @@ const std::map<std::string, Folders> kMayInclude = {
     {"sim", kLayer2},
     {"drivers", kLayer2},
     {"robot", {"base", "grid", "pipe", "plan", "drive", "device", "slam", "autopilot", "io"}},
-    {"server", with(kLayer2, "robot")},
+    {"server", {"base", "grid", "pipe", "plan", "drive", "device", "slam", "autopilot", "io", "robot"}},
 };
 
 /// Libraries that only one folder may see, by the first part of what is included.
-const std::map<std::string, std::string> kOnlyIn = {{"ceres", "slam"},
-                                                    {"civetweb.h", "server"},
-                                                    {"gpiod.h", "drivers"},
-                                                    {"libcamera", "drivers"},
-                                                    {"i2c", "drivers"}};
+const std::map<std::string, std::string> kOnlyIn = {
+    {"ceres", "slam"},  {"civetweb.h", "server"}, {"gpiod.h", "drivers"},   {"libcamera", "drivers"},
+    {"i2c", "drivers"}, {"sodium.h", "server"},   {"qrencode.h", "server"},
+};
 
 struct Include {
   std::string file, folder, target;
