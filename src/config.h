@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/scan.h"
 #include "drive/drive_config.h"
+#include "server/access/access_config.h"
 #include "slam/slam_config.h"
 
 namespace dynslam {
@@ -43,6 +44,7 @@ struct Config {
   LidarConfig lidar;
   SlamConfig slam;
   DriveConfig drive;
+  AccessConfig access;
 
   /// Calls `visit(name of the table, struct with fields)` for each table.
   template <class Self, class Visit>
@@ -50,6 +52,7 @@ struct Config {
     visit(std::string_view("lidar"), self.lidar);
     visit(std::string_view("slam"), self.slam);
     DriveConfig::sections(self.drive, visit);
+    visit(std::string_view("access"), self.access);
   }
 };
 
