@@ -57,7 +57,9 @@ Config make_config(const std::optional<std::string>& path, const std::vector<std
   std::vector<std::string> problems;
   if (path) append(problems, read_toml(read_text(*path), *path, keys));
   for (const std::string& setting : settings) append(problems, read_setting(setting, keys));
-  if (const auto problem = config.slam.problem(); problem && problems.empty()) problems.push_back(*problem);
+  if (problems.empty())
+    for (const auto& problem : {config.slam.problem(), config.access.problem()})
+      if (problem) problems.push_back(*problem);
   if (!problems.empty()) throw ConfigError(std::move(problems));
   return config;
 }

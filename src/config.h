@@ -14,6 +14,7 @@
 #include "base/scan.h"
 #include "drive/drive_config.h"
 #include "robot/recorder_config.h"
+#include "server/access/access_config.h"
 #include "server/server_config.h"
 #include "slam/slam_config.h"
 
@@ -47,6 +48,7 @@ struct Config {
   DriveConfig drive;
   ServerConfig server;
   RecorderConfig recorder;
+  AccessConfig access;
 
   /// Calls `visit(name of the table, struct with fields)` for each table.
   template <class Self, class Visit>
@@ -56,6 +58,7 @@ struct Config {
     DriveConfig::sections(self.drive, visit);
     visit(std::string_view("server"), self.server);
     visit(std::string_view("recorder"), self.recorder);
+    visit(std::string_view("access"), self.access);
   }
 };
 

@@ -42,6 +42,12 @@ std::string toml_text(double value) {
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;  // "12" would be an integer
 }
 
+std::string toml_text(const std::vector<std::string>& texts) {
+  std::string out;
+  for (const std::string& text : texts) out += (out.empty() ? "" : ", ") + toml_text(text);
+  return '[' + out + ']';
+}
+
 /// What the file holds instead of what was wanted, short enough for a message.
 std::string shown(const toml::node& node) {
   if (node.is_table()) return "a table";
@@ -65,6 +71,7 @@ std::string wanted(const Field&, const bool*) { return "true or false"; }
 std::string wanted(const Field& field, const int*) { return "a whole number" + limits_text(field); }
 std::string wanted(const Field& field, const double*) { return "a number" + limits_text(field); }
 std::string wanted(const Field&, const std::string*) { return "a text in quotes"; }
+std::string wanted(const Field&, const std::vector<std::string>*) { return "a list of texts in quotes"; }
 std::string wanted(const ConfigKey& key) {
   return std::visit([&](const auto* value) { return wanted(key.field, value); }, key.value);
 }
@@ -98,6 +105,16 @@ bool read_value(const toml::node& node, const Field& field, int& value) {
 bool read_value(const toml::node& node, const Field&, std::string& value) {
   if (!node.is_string()) return false;
   value = **node.as_string();
+  return true;
+}
+
+bool read_value(const toml::node& node, const Field& field, std::vector<std::string>& value) {
+  const auto* array = node.as_array();
+  if (array == nullptr) return false;
+  std::vector<std::string> read(array->size());
+  for (std::size_t i = 0; i < read.size(); ++i)
+    if (!read_value(*array->get(i), field, read[i])) return false;
+  value = std::move(read);
   return true;
 }
 

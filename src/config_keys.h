@@ -18,7 +18,7 @@ namespace dynslam {
 struct ConfigKey {
   std::string_view section;  ///< the TOML table
   Field field;
-  std::variant<bool*, int*, double*, std::string*> value;
+  std::variant<bool*, int*, double*, std::string*, std::vector<std::string>*> value;
 
   /// "slam.cell_size_m"
   std::string name() const { return std::string(section) + '.' + std::string(field.name); }

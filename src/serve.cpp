@@ -2,41 +2,70 @@
 #include "serve.h"
 
 #include <cstdio>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
+#include "server/access/own_addresses.h"
+#include "server/access/pairing_notice.h"
 #include "sim/builtin_worlds.h"
 
 namespace dynslam {
 namespace {
 
-class LoopbackGate : public Gate {
- public:
-  Decision admit(const HttpRequest& request, Right) override {
-    if (!request.address.starts_with("127.") && request.address != "::1")
-      return {error_answer(403, "only from this machine"), {}};
-    return {std::nullopt, {"this machine", Right::kAdmin, [] { return std::string(); }}};
-  }
-};
+constexpr std::chrono::minutes kTendEvery{1};
 
 ServerFacts facts_of(const Config& config, const ServeOptions& options) {
-  ServerFacts facts{DYNSLAM_VERSION, config_json(config).dump(), {}, options.world, {}};
+  ServerFacts facts;
+  facts.version = DYNSLAM_VERSION;
+  facts.config_json = config_json(config).dump();
+  facts.world = options.world;
+  facts.recordings = config.recorder.folder;
   facts.limits = {config.drive.kinematics.max_speed_mps, config.drive.kinematics.max_turn_radps};
   if (!options.world.empty())
     for (const BuiltinWorld& world : builtin_worlds()) facts.worlds.emplace_back(world.name);
   return facts;
 }
 
+/// A simulation pairs by itself with who sits at this machine, and forgets all others at its end.
+AccessSetup access_setup(const Config& config, const ServeOptions& options) {
+  AccessSetup setup;
+  setup.config = config.access;
+  setup.host_name = own_host_name();
+  setup.trust_loopback = !options.world.empty();
+  setup.addresses = own_addresses();
+  return setup;
+}
+
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
+
 }  // namespace
 
 Serving::Serving(Ports& ports, const Clock& clock, const Config& config, const ServeOptions& options)
-    : gate_(std::make_unique<LoopbackGate>()) {
+    : access_(access_setup(config, options)) {
   ServerConfig server = config.server;
   if (options.port) server.port = *options.port;
-  server_ = std::make_unique<Server>(ports, clock, *gate_, server, facts_of(config, options));
+  server_.emplace(ports, clock, access_, server, facts_of(config, options));
   const std::string host = server.bind.empty() ? "localhost" : server.bind;
-  std::printf("http://%s:%d/\n", host.c_str(), server_->port());
-  std::fflush(stdout);
+  print("http://" + host + ':' + std::to_string(server_->port()) + "/\n");
+  if (const auto code = access_.owner_code(AccessTime::now()))
+    print(pairing_notice(*code, own_addresses(), server_->port()));
+  tends_ = std::thread([this] { tend(); });
+}
+
+Serving::~Serving() {
+  ends_.request();
+  tends_.join();
+}
+
+void Serving::tend() {
+  while (!ends_.wait(std::chrono::steady_clock::now() + kTendEvery)) {
+    access_.set_addresses(own_addresses());
+    access_.tend(AccessTime::now());
+  }
 }
 
 }  // namespace dynslam

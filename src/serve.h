@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "config.h"
 #include "robot/ports.h"
+#include "robot/stop_signal.h"
 #include "server/server.h"
 
 namespace dynslam {
@@ -21,13 +22,20 @@ class Serving {
  public:
   /// All references must outlive this. Throws std::runtime_error, in one line, when it cannot listen.
   Serving(Ports& ports, const Clock& clock, const Config& config, const ServeOptions& options);
+  ~Serving();
+  Serving(const Serving&) = delete;
+  Serving& operator=(const Serving&) = delete;
 
   /// Whether a person holds the wheel.
   bool is_driven() const { return server_->is_driven(); }
 
  private:
-  std::unique_ptr<Gate> gate_;
-  std::unique_ptr<Server> server_;
+  void tend();
+
+  Access access_;
+  std::optional<Server> server_;
+  StopSignal ends_;
+  std::thread tends_;
 };
 
 }  // namespace dynslam

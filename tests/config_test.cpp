@@ -113,6 +113,21 @@ TEST(ReadToml, RefusesNumbersThatDoNotFit) {
   EXPECT_EQ(count, 2147483647);
 }
 
+TEST(ReadToml, SetsAListOfTexts) {
+  Lines hosts = {"old"};
+  const std::vector<ConfigKey> keys = {{"a", {"hosts", "who"}, &hosts}};
+  const Lines problem = {"f:1: a.hosts: must be a list of texts in quotes, not "};
+  EXPECT_EQ(read_toml("a.hosts = 'x'", "f", keys), (Lines{problem[0] + "\"x\""}));
+  EXPECT_EQ(read_toml("a.hosts = ['x', 2]", "f", keys), (Lines{problem[0] + "an array"}));
+  EXPECT_EQ(hosts, (Lines{"old"})) << "nothing of a list that is wrong";
+  EXPECT_EQ(read_toml("a.hosts = ['x', \"y z\",\n'\"',]", "f", keys), Lines{});
+  EXPECT_EQ(hosts, (Lines{"x", "y z", "\""}));
+  EXPECT_EQ(to_toml(keys), "[a]\n# who: a list of texts in quotes\nhosts = [\"x\", \"y z\", \"\\\"\"]\n");
+  EXPECT_EQ(to_json(keys).dump(), R"({"a":{"hosts":["x","y z","\""]}})");
+  EXPECT_EQ(read_setting("a.hosts=[]", keys), Lines{});
+  EXPECT_EQ(hosts, Lines{});
+}
+
 TEST(ReadToml, SuggestsNames) {
   Sample s;
   EXPECT_EQ(s.read("size_m = 1\n[oen]\nflag = true"),
@@ -260,6 +275,13 @@ TEST_F(ConfigFileTest, ReportsTheProblemsOfFileAndSettingsTogether) {
   EXPECT_EQ(std::string(ConfigError(expected).what()), expected[0] + "\n" + expected[1]);
 }
 
+TEST_F(ConfigFileTest, ReportsWhatNoLimitSays) {
+  EXPECT_EQ(problems_of(std::nullopt, {"access.allowed_hosts=['http://a']"}),
+            (Lines{"access.allowed_hosts: \"http://a\" is no name of a machine, as \"robot.lan\""}));
+  EXPECT_EQ(problems_of(std::nullopt, {"access.client_networks=['10.0.0.0/33']"}),
+            (Lines{"access.client_networks: \"10.0.0.0/33\" is no network, as \"100.64.0.0/10\""}));
+}
+
 TEST_F(ConfigFileTest, SaysWhyAFileCannotBeRead) {
   EXPECT_EQ(message_of("/nowhere/x.toml"), "cannot read config /nowhere/x.toml: No such file or directory");
   EXPECT_EQ(message_of("/tmp"), "cannot read config /tmp: is a directory");
@@ -280,6 +302,7 @@ TEST_F(ConfigFileTest, ReadsBackItsReference) {
   Config config;
   config.lidar.x_m = -0.125;
   config.slam.cell_size_m = 0.05;
+  config.access.allowed_hosts = {"robot.lan", "robot.example.org"};
   const std::string reference = config_reference(config);
   EXPECT_EQ(config_reference(load_config(write(reference))), reference);
   EXPECT_EQ(config_json(load_config(path_)), config_json(config));

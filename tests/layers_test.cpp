@@ -38,11 +38,10 @@ const std::map<std::string, Folders> kMayInclude = {
 };
 
 /// Libraries that only one folder may see, by the first part of what is included.
-const std::map<std::string, std::string> kOnlyIn = {{"ceres", "slam"},
-                                                    {"civetweb.h", "server"},
-                                                    {"gpiod.h", "drivers"},
-                                                    {"libcamera", "drivers"},
-                                                    {"i2c", "drivers"}};
+const std::map<std::string, std::string> kOnlyIn = {
+    {"ceres", "slam"},  {"civetweb.h", "server"}, {"gpiod.h", "drivers"},   {"libcamera", "drivers"},
+    {"i2c", "drivers"}, {"sodium.h", "server"},   {"qrencode.h", "server"},
+};
 
 struct Include {
   std::string file, folder, target;

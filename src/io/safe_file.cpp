@@ -27,10 +27,10 @@ std::string temporary_name(const std::string& name) { return "." + name + ".part
 /// A file that is being written; errors are runtime_errors that name `shown_path`.
 class FileInWork {
  public:
-  FileInWork(int folder, const std::string& name, std::string shown_path)
+  FileInWork(int folder, const std::string& name, std::string shown_path, unsigned mode)
       : shown_path_(std::move(shown_path)) {
     ::unlinkat(folder, name.c_str(), 0);  // what a killed run may have left behind
-    file_ = ::openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    file_ = ::openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
     if (file_ < 0) fail();
   }
   ~FileInWork() {
@@ -68,7 +68,8 @@ class FileInWork {
 
 }  // namespace
 
-OutputFolder::OutputFolder(std::string path) : path_(std::move(path)) {
+OutputFolder::OutputFolder(std::string path, unsigned file_mode)
+    : path_(std::move(path)), file_mode_(file_mode) {
   std::error_code error;
   std::filesystem::create_directories(path_, error);
   if (error) throw InputError(cannot_write(path_, error.value()));
@@ -93,7 +94,7 @@ void OutputFolder::open_and_lock() {
 
 void OutputFolder::try_writing() {
   try {
-    FileInWork(folder_, temporary_name("probe"), path_).write("?");
+    FileInWork(folder_, temporary_name("probe"), path_, file_mode_).write("?");
     discard("probe");
   } catch (const std::runtime_error& failure) {
     discard("probe");
@@ -134,7 +135,7 @@ void OutputFolder::stage(const std::string& name, const std::function<void(const
   refuse_folder(name);
   std::erase(staged_, name);
   try {
-    FileInWork file(folder_, temporary_name(name), shown(name));
+    FileInWork file(folder_, temporary_name(name), shown(name), file_mode_);
     write([&file](std::string_view bytes) { file.write(bytes); });
     file.finish();
     staged_.push_back(name);

@@ -20,8 +20,9 @@ namespace dynslam {
 class OutputFolder {
  public:
   /// Creates the folder and its parents where missing and tries that files can be written, long before there
-  /// are any. Throws InputError when not, or when another run holds the folder.
-  explicit OutputFolder(std::string path);
+  /// are any. Throws InputError when not, or when another run holds the folder. `file_mode` is who may read
+  /// and write the files, less what the umask takes away.
+  explicit OutputFolder(std::string path, unsigned file_mode = 0666);
 
   /// Removes what was staged and not committed.
   ~OutputFolder();
@@ -55,6 +56,7 @@ class OutputFolder {
   std::string shown(const std::string& name) const;
 
   std::string path_;
+  unsigned file_mode_;
   int folder_ = -1;
   std::vector<std::string> staged_, reserved_;
 };

@@ -65,24 +65,27 @@ Api::Api(Ports& ports, const Clock& clock, Gate& gate, Wheel& wheel, EventCounte
       autopilot_(std::move(autopilot)) {}
 
 void Api::add_to(RouteTable& routes) {
-  add(routes, "GET", "/healthz", Right::kAnyone, &Api::health);
-  add(routes, "GET", "/metrics", Right::kViewer, &Api::metrics);
-  add(routes, "GET", "/api/v1/openapi.yaml", Right::kViewer, &Api::contract);
-  add(routes, "GET", "/api/v1/state", Right::kViewer, &Api::state);
-  add(routes, "GET", "/api/v1/devices", Right::kViewer, &Api::devices);
-  add(routes, "GET", "/api/v1/config", Right::kViewer, &Api::config);
-  add(routes, "GET", "/api/v1/worlds", Right::kViewer, &Api::worlds);
-  add(routes, "GET", "/api/v1/map.png", Right::kViewer, &Api::map_png);
-  add(routes, "GET", "/api/v1/map.pgm", Right::kViewer, &Api::map_pgm);
-  add(routes, "GET", "/api/v1/map.yaml", Right::kViewer, &Api::map_yaml);
-  add(routes, "POST", "/api/v1/goal", Right::kDriver, &Api::goal);
-  add(routes, "POST", "/api/v1/mode", Right::kDriver, &Api::mode);
-  add(routes, "POST", "/api/v1/power_limit", Right::kDriver, &Api::power_limit);
-  add(routes, "POST", "/api/v1/stop", Right::kAnyone, &Api::stop);
-  add(routes, "POST", "/api/v1/clear_stop", Right::kDriver, &Api::clear_stop);
+  add(routes, "GET", "/healthz", Role::kNone, &Api::health);
+  add(routes, "GET", "/metrics", Role::kViewer, &Api::metrics);
+  add(routes, "GET", "/api/v1/openapi.yaml", Role::kViewer, &Api::contract);
+  add(routes, "GET", "/api/v1/state", Role::kViewer, &Api::state);
+  add(routes, "GET", "/api/v1/devices", Role::kViewer, &Api::devices);
+  add(routes, "GET", "/api/v1/config", Role::kViewer, &Api::config);
+  add(routes, "GET", "/api/v1/worlds", Role::kViewer, &Api::worlds);
+  add(routes, "GET", "/api/v1/map.png", Role::kViewer, &Api::map_png);
+  add(routes, "GET", "/api/v1/map.pgm", Role::kViewer, &Api::map_pgm);
+  add(routes, "GET", "/api/v1/map.yaml", Role::kViewer, &Api::map_yaml);
+  add(routes, "POST", "/api/v1/goal", Role::kDriver, &Api::goal);
+  add(routes, "POST", "/api/v1/mode", Role::kDriver, &Api::mode);
+  add(routes, "POST", "/api/v1/power_limit", Role::kDriver, &Api::power_limit);
+  routes.add("POST", "/api/v1/stop", [this](const HttpRequest& request, const std::string&) {
+    const Gate::Decision decision = gate_.admit_to_stop(request);
+    return decision.refusal ? *decision.refusal : stop(request, decision.visitor);
+  });
+  add(routes, "POST", "/api/v1/clear_stop", Role::kDriver, &Api::clear_stop);
 }
 
-void Api::add(RouteTable& routes, const char* method, const char* path, Right needed, Handler handler) {
+void Api::add(RouteTable& routes, const char* method, const char* path, Role needed, Handler handler) {
   routes.add(method, path, [this, needed, handler](const HttpRequest& request, const std::string&) {
     const Gate::Decision decision = gate_.admit(request, needed);
     return decision.refusal ? *decision.refusal : (this->*handler)(request, decision.visitor);
@@ -96,9 +99,11 @@ HttpAnswer Api::health(const HttpRequest&, const Visitor&) {
 
 HttpAnswer Api::metrics(const HttpRequest&, const Visitor&) {
   const Wheel::Delays delays = wheel_.delays();
+  Counters counters = events_.get();
+  for (const auto& [name, n] : access_counts()) counters.add(name, n);
   return with_type(
       "text/plain; version=0.0.4",
-      metrics_text(ports_, {events_.get(), connections(), delays.command_to_motor, delays.drop_to_off}));
+      metrics_text(ports_, {counters, connections(), delays.command_to_motor, delays.drop_to_off}));
 }
 
 HttpAnswer Api::contract(const HttpRequest&, const Visitor&) {
@@ -106,7 +111,7 @@ HttpAnswer Api::contract(const HttpRequest&, const Visitor&) {
 }
 
 std::string Api::state_text() const {
-  StateExtras extras{clock_.now(), ports_.scan.get().version, wheel_.holder(0).driver, {}, events_.get()};
+  StateExtras extras{clock_.now(), ports_.scan.get().version, wheel_.holder(0).driver, events_.get()};
   wheel_.answered();
   return text_of(state_json(ports_, extras));
 }

@@ -20,6 +20,7 @@ struct ServerFacts {
   std::string config_json = "{}";   ///< without secrets
   std::vector<std::string> worlds;  ///< of the simulator
   std::string world;                ///< the one that is simulated; empty on a real robot
+  std::string recordings;           ///< folder
   TwistLimits limits;
 };
 
@@ -40,10 +41,12 @@ class Api {
   std::string state_text() const;
   /// Connections that are open; known once the server runs.
   std::function<std::size_t()> connections = [] { return std::size_t{0}; };
+  /// What was refused.
+  std::function<Counters()> access_counts = [] { return Counters(); };
 
  private:
   using Handler = HttpAnswer (Api::*)(const HttpRequest&, const Visitor&);
-  void add(RouteTable& routes, const char* method, const char* path, Right needed, Handler handler);
+  void add(RouteTable& routes, const char* method, const char* path, Role needed, Handler handler);
 
   HttpAnswer health(const HttpRequest&, const Visitor&);
   HttpAnswer metrics(const HttpRequest&, const Visitor&);

@@ -4,22 +4,21 @@
 #include <optional>
 #include <string>
 
+#include "server/access/role.h"
 #include "server/http_message.h"
 #include "server/watch_channels.h"
 
 namespace dynslam {
 
-/// What a request needs. Each may what the one before may.
-enum class Right { kAnyone, kViewer, kDriver, kAdmin };
-
 /// Who is let in, and as what.
 struct Visitor {
-  std::string name;
-  Right right = Right::kAnyone;
+  std::string name;  ///< empty for a stranger
+  Role role = Role::kNone;
+  std::string id;              ///< of what let him in
   StillAllowed still_allowed;  ///< for what lasts longer than a request
 };
 
-/// Decides who may do what. Any thread.
+/// Decides who may do what, by what a request says of itself. Any thread.
 class Gate {
  public:
   struct Decision {
@@ -27,7 +26,9 @@ class Gate {
     Visitor visitor;  ///< when there is no refusal
   };
   virtual ~Gate() = default;
-  virtual Decision admit(const HttpRequest& request, Right needed) = 0;
+  virtual Decision admit(const HttpRequest& request, Role needed) = 0;
+  /// To stopping the robot, which takes less than anything else.
+  virtual Decision admit_to_stop(const HttpRequest& request) = 0;
 };
 
 }  // namespace dynslam

@@ -18,15 +18,6 @@ std::uint64_t new_map_id() {
   return (std::uint64_t{random()} << 32 | random()) | 1U;
 }
 
-void add_page(RouteTable& routes, const char* path, const char* file, const char* type) {
-  routes.add("GET", path, [file, type](const HttpRequest&, const std::string&) {
-    HttpAnswer answer;
-    answer.type = type;
-    answer.body = embedded_file(file);
-    return answer;
-  });
-}
-
 Seats::Use use_of(const HttpRequest& request) {
   if (request.path == kStop) return Seats::Use::kStop;
   if (!request.path.starts_with(kSockets)) return Seats::Use::kRequest;
@@ -40,44 +31,61 @@ Seats::Limits limits_of(const ServerConfig& config) {
 
 }  // namespace
 
-Server::Server(Ports& ports, const Clock& clock, Gate& gate, const ServerConfig& config, ServerFacts facts,
-               AutopilotPort autopilot)
+Server::Server(Ports& ports, const Clock& clock, Access& access, const ServerConfig& config,
+               ServerFacts facts, AutopilotPort autopilot)
     : ports_(ports),
       clock_(clock),
-      gate_(gate),
+      gate_(access),
       wheel_(ports, clock, facts.limits),
-      api_(ports, clock, gate, wheel_, events_, std::move(facts), std::move(autopilot)),
+      api_(ports, clock, gate_, wheel_, events_, facts, std::move(autopilot)),
+      access_api_(access, gate_),
+      recordings_api_(ports, gate_, facts.recordings),
       state_feed_([this] { return api_.state_text(); }),
       map_feed_(ports, clock, new_map_id()),
-      web_({config.bind, config.port, limits_of(config)}, handlers()) {
+      web_({config.bind, config.port, limits_of(config)}, handlers(access)) {
   serving_ = &web_;
 }
 
-WebServer::Handlers Server::handlers() {
+WebServer::Handlers Server::handlers(Access& access) {
   api_.connections = [this] {
     const WebServer* web = serving_;
     return web == nullptr ? std::size_t{0} : web->connections();
   };
+  api_.access_counts = [&access] { return access.counts(); };
   api_.add_to(routes_);
-  add_page(routes_, "/", "index.html", "text/html; charset=utf-8");
-  add_page(routes_, "/page.js", "page.js", "text/javascript; charset=utf-8");
-  add_page(routes_, "/page.css", "page.css", "text/css; charset=utf-8");
+  access_api_.add_to(routes_);
+  recordings_api_.add_to(routes_);
+  add_page("/", "index.html", "text/html; charset=utf-8");
+  add_page("/page.js", "page.js", "text/javascript; charset=utf-8");
+  add_page("/page.css", "page.css", "text/css; charset=utf-8");
   return {[this](const HttpRequest& request) { return routes_.answer(request); },
           [this](const HttpRequest& request) { return open(request); }, use_of};
+}
+
+/// What strangers need to come in by is nothing that they may not see.
+void Server::add_page(const char* path, const char* file, const char* type) {
+  routes_.add("GET", path, [this, file, type](const HttpRequest& request, const std::string&) {
+    const Gate::Decision decision = gate_.admit(request, Role::kNone);
+    if (decision.refusal) return *decision.refusal;
+    HttpAnswer answer;
+    answer.type = type;
+    answer.body = embedded_file(file);
+    return answer;
+  });
 }
 
 std::variant<std::unique_ptr<Channel>, HttpAnswer> Server::open(const HttpRequest& request) {
   const std::string kind = request.path.substr(std::min(kSockets.size(), request.path.size()));
   if (kind != "control" && kind != "state" && kind != "map" && kind != "video")
     return error_answer(404, "there is no such WebSocket");
-  Gate::Decision decision = gate_.admit(request, Right::kViewer);
+  Gate::Decision decision = gate_.admit(request, Role::kViewer);
   if (decision.refusal) return *decision.refusal;
   Visitor& visitor = decision.visitor;
   if (kind == "state") return std::make_unique<StateChannel>(state_feed_, std::move(visitor.still_allowed));
   if (kind == "map") return std::make_unique<MapChannel>(map_feed_, std::move(visitor.still_allowed));
   if (kind == "video") return std::make_unique<VideoChannel>(ports_, std::move(visitor.still_allowed));
   return std::make_unique<ControlChannel>(wheel_, ports_, clock_, events_,
-                                          ControlClient{visitor.name, visitor.right >= Right::kDriver},
+                                          ControlClient{visitor.name, visitor.role >= Role::kDriver},
                                           std::move(visitor.still_allowed));
 }
 

@@ -5,8 +5,11 @@
 #include <memory>
 #include <variant>
 
+#include "server/access_api.h"
+#include "server/access_gate.h"
 #include "server/api.h"
 #include "server/feeds.h"
+#include "server/recordings_api.h"
 #include "server/server_config.h"
 #include "server/web_server.h"
 
@@ -17,7 +20,7 @@ namespace dynslam {
 class Server {
  public:
   /// All references must outlive this. Throws std::runtime_error, in one line, when it cannot listen.
-  Server(Ports& ports, const Clock& clock, Gate& gate, const ServerConfig& config, ServerFacts facts,
+  Server(Ports& ports, const Clock& clock, Access& access, const ServerConfig& config, ServerFacts facts,
          AutopilotPort autopilot = {});
 
   int port() const { return web_.port(); }
@@ -25,15 +28,18 @@ class Server {
   bool is_driven() const { return wheel_.holder(0).driver.has_value(); }
 
  private:
-  WebServer::Handlers handlers();
+  WebServer::Handlers handlers(Access& access);
+  void add_page(const char* path, const char* file, const char* type);
   std::variant<std::unique_ptr<Channel>, HttpAnswer> open(const HttpRequest& request);
 
   Ports& ports_;
   const Clock& clock_;
-  Gate& gate_;
+  AccessGate gate_;
   EventCounters events_;
   Wheel wheel_;
   Api api_;
+  AccessApi access_api_;
+  RecordingsApi recordings_api_;
   StateFeed state_feed_;
   MapFeed map_feed_;
   RouteTable routes_;

@@ -103,9 +103,22 @@ json state_json(const Ports& ports, const StateExtras& extras) {
   state["power_limit"] = rounded(ports.power_limit);
   state["watchers"] = ports.watchers.load();
   if (extras.driver) state["driver"] = *extras.driver;
-  if (!extras.recording.empty()) state["recording"] = json::parse(extras.recording, nullptr, false);
+  state["recording"] = recording_json(ports);
   state["counters"] = counters_json(extras.counters);
   return state;
+}
+
+json recording_json(const Ports& ports) {
+  const auto r = ports.recording.get().value;
+  if (!r) return nullptr;
+  return {{"active", r->active},
+          {"asked_for", r->asked_for},
+          {"file", r->file.substr(r->file.find_last_of('/') + 1)},
+          {"bytes", r->bytes},
+          {"messages", r->messages},
+          {"seconds", rounded(r->seconds)},
+          {"dropped", r->dropped},
+          {"trouble", r->trouble}};
 }
 
 json devices_json(const Ports& ports) {

@@ -22,12 +22,14 @@ struct StateExtras {
   Time now;
   std::uint64_t scan_version = 0;
   std::optional<std::string> driver;  ///< who holds the wheel
-  std::string recording;              ///< JSON; empty: null
   Counters counters;                  ///< of the server
 };
 
 /// The state as web/openapi.yaml describes it.
 nlohmann::json state_json(const Ports& ports, const StateExtras& extras);
+
+/// What is recorded now; null before the recorder has said anything.
+nlohmann::json recording_json(const Ports& ports);
 
 /// How each device does, and what the robot's stages count.
 nlohmann::json devices_json(const Ports& ports);

@@ -16,18 +16,19 @@ using testing::StartsWith;
 
 /// Lets everybody in as what is set.
 struct FixedGate : Gate {
-  Right right = Right::kAdmin;
-  Decision admit(const HttpRequest&, Right needed) override {
+  Role right = Role::kAdmin;
+  Decision admit(const HttpRequest&, Role needed) override {
     if (right < needed) return {error_answer(403, "not for you"), {}};
-    return {std::nullopt, {"Ada", right, {}}};
+    return {std::nullopt, {"Ada", right, {}, {}}};
   }
+  Decision admit_to_stop(const HttpRequest& request) override { return admit(request, Role::kNone); }
 };
 
 class ApiTest : public testing::Test {
  protected:
   explicit ApiTest(AutopilotPort autopilot = {})
       : api(ports, clock, gate, wheel, events,
-            {"1.2.3", R"({"slam":{"cell_size_m":0.02}})", {"flat", "hall"}, "flat", {}},
+            {"1.2.3", R"({"slam":{"cell_size_m":0.02}})", {"flat", "hall"}, "flat", {}, {}},
             std::move(autopilot)) {
     api.add_to(routes);
   }
@@ -67,24 +68,24 @@ TEST_F(ApiTest, KnowsWhatIsThereAndWhatMayBeDoneWithIt) {
 }
 
 TEST_F(ApiTest, AsksTheGateForEachRequest) {
-  const std::vector<std::tuple<const char*, const char*, Right>> needs = {
-      {"GET", "/healthz", Right::kAnyone},
-      {"GET", "/metrics", Right::kViewer},
-      {"GET", "/api/v1/openapi.yaml", Right::kViewer},
-      {"GET", "/api/v1/state", Right::kViewer},
-      {"GET", "/api/v1/devices", Right::kViewer},
-      {"GET", "/api/v1/config", Right::kViewer},
-      {"GET", "/api/v1/worlds", Right::kViewer},
-      {"GET", "/api/v1/map.png", Right::kViewer},
-      {"GET", "/api/v1/map.pgm", Right::kViewer},
-      {"GET", "/api/v1/map.yaml", Right::kViewer},
-      {"POST", "/api/v1/goal", Right::kDriver},
-      {"POST", "/api/v1/mode", Right::kDriver},
-      {"POST", "/api/v1/power_limit", Right::kDriver},
-      {"POST", "/api/v1/stop", Right::kAnyone},
-      {"POST", "/api/v1/clear_stop", Right::kDriver}};
+  const std::vector<std::tuple<const char*, const char*, Role>> needs = {
+      {"GET", "/healthz", Role::kNone},
+      {"GET", "/metrics", Role::kViewer},
+      {"GET", "/api/v1/openapi.yaml", Role::kViewer},
+      {"GET", "/api/v1/state", Role::kViewer},
+      {"GET", "/api/v1/devices", Role::kViewer},
+      {"GET", "/api/v1/config", Role::kViewer},
+      {"GET", "/api/v1/worlds", Role::kViewer},
+      {"GET", "/api/v1/map.png", Role::kViewer},
+      {"GET", "/api/v1/map.pgm", Role::kViewer},
+      {"GET", "/api/v1/map.yaml", Role::kViewer},
+      {"POST", "/api/v1/goal", Role::kDriver},
+      {"POST", "/api/v1/mode", Role::kDriver},
+      {"POST", "/api/v1/power_limit", Role::kDriver},
+      {"POST", "/api/v1/stop", Role::kNone},
+      {"POST", "/api/v1/clear_stop", Role::kDriver}};
   for (const auto& [method, path, needed] : needs) {
-    for (const Right right : {Right::kAnyone, Right::kViewer, Right::kDriver, Right::kAdmin}) {
+    for (const Role right : {Role::kNone, Role::kViewer, Role::kDriver, Role::kAdmin}) {
       gate.right = right;
       EXPECT_EQ(ask(method, path).status == 403, right < needed) << path << ' ' << static_cast<int>(right);
     }

@@ -52,14 +52,6 @@ class Client {
   int socket_;
 };
 
-struct OpenGate : Gate {
-  Decision admit(const HttpRequest& request, Right needed) override {
-    if (request.header("x-nobody") == "1" && needed > Right::kAnyone)
-      return {error_answer(401, "not paired"), {}};
-    return {std::nullopt, {"Ada", Right::kAdmin, {}}};
-  }
-};
-
 class ServerTest : public testing::Test {
  protected:
   static ServerConfig config() {
@@ -76,11 +68,12 @@ class ServerTest : public testing::Test {
     return client.hear();
   }
   std::string get(const std::string& path, const std::string& headers = {}) const {
-    return ask("GET " + path + " HTTP/1.1\r\nHost: a\r\n" + headers + "\r\n");
+    return ask("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n" + headers + "\r\n");
   }
   std::string upgrade(const std::string& kind, const std::string& headers = {}) const {
     return "GET /api/v1/ws/" + kind +
-           " HTTP/1.1\r\nHost: a\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: "
+           " HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: "
+           "Upgrade\r\nSec-WebSocket-Version: "
            "13\r\n"
            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n" +
            headers + "\r\n";
@@ -88,8 +81,8 @@ class ServerTest : public testing::Test {
 
   Ports ports;
   RunningClock clock;
-  OpenGate gate;
-  Server server{ports, clock, gate, config(), {"1", "{}", {}, {}, {}}};
+  Access access{{{}, "robot", std::nullopt, true, {"127.0.0.1/8"}}};
+  Server server{ports, clock, access, config(), {"1", "{}", {}, {}, {}, {}}};
 };
 
 TEST_F(ServerTest, AnswersWithHeadersThatKeepBrowsersSafe) {
@@ -100,7 +93,7 @@ TEST_F(ServerTest, AnswersWithHeadersThatKeepBrowsersSafe) {
     EXPECT_THAT(page, HasSubstr(header));
   EXPECT_THAT(get("/page.js"), HasSubstr("text/javascript"));
   EXPECT_THAT(get("/page.css"), HasSubstr("text/css"));
-  const std::string head = ask("HEAD / HTTP/1.1\r\nHost: a\r\n\r\n");
+  const std::string head = ask("HEAD / HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_THAT(head, testing::EndsWith("\r\n\r\n"));
 }
 
@@ -110,15 +103,15 @@ TEST_F(ServerTest, AnswersNonsenseInTheSameForm) {
   EXPECT_THAT(get("/page.js%00.html"), HasSubstr("HTTP/1.1 "));
   EXPECT_THAT(get("/", "X: " + std::string(20000, 'x') + "\r\n"), StartsWith("HTTP/1.1 4"));
   EXPECT_THAT(ask("\x16\x03\x01 TLS\r\n\r\n"), HasSubstr("{\"error\":"));
-  EXPECT_THAT(ask("POST /api/v1/mode HTTP/1.1\r\nHost: a\r\nContent-Length: 20000\r\n\r\n"),
+  EXPECT_THAT(ask("POST /api/v1/mode HTTP/1.1\r\nHost: localhost\r\nContent-Length: 20000\r\n\r\n"),
               StartsWith("HTTP/1.1 413"));
-  EXPECT_THAT(ask("BREW / HTTP/1.1\r\nHost: a\r\n\r\n"), HasSubstr("\"error\""));
+  EXPECT_THAT(ask("BREW / HTTP/1.1\r\nHost: localhost\r\n\r\n"), HasSubstr("\"error\""));
 }
 
 TEST_F(ServerTest, TakesBodiesWithAndWithoutALength) {
   const std::string body = R"({"power_limit":0.5})";
   const std::string head =
-      "POST /api/v1/power_limit HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\n";
+      "POST /api/v1/power_limit HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n";
   EXPECT_THAT(ask(head + "Content-Length: 19\r\n\r\n" + body), StartsWith("HTTP/1.1 204"));
   EXPECT_EQ(ports.power_limit, 0.5);
   EXPECT_THAT(ask(head + "Transfer-Encoding: chunked\r\n\r\n13\r\n" + body + "\r\n0\r\n\r\n"),
@@ -127,11 +120,11 @@ TEST_F(ServerTest, TakesBodiesWithAndWithoutALength) {
 
 TEST_F(ServerTest, OpensOnlyTheSocketsThatThereAre) {
   EXPECT_THAT(ask(upgrade("nothing")), StartsWith("HTTP/1.1 404"));
-  EXPECT_THAT(ask(upgrade("map", "X-Nobody: 1\r\n")), StartsWith("HTTP/1.1 401"));
+  EXPECT_THAT(ask(upgrade("map", "Authorization: Bearer nobody\r\n")), StartsWith("HTTP/1.1 401"));
   EXPECT_THAT(get("/api/v1/ws/map"), StartsWith("HTTP/1.1 404"));
-  EXPECT_THAT(
-      ask("GET /api/v1/ws/map HTTP/1.1\r\nHost: a\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\r\n"),
-      StartsWith("HTTP/1.1 400"));
+  EXPECT_THAT(ask("GET /api/v1/ws/map HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: "
+                  "Upgrade\r\n\r\n"),
+              StartsWith("HTTP/1.1 400"));
   const Client client(server.port());
   client.say(upgrade("state"));
   EXPECT_THAT(client.hear("\"watchers\""), HasSubstr("s3pPLMBiTxaQ9kYGzzhZRbK+xOo="));
@@ -143,12 +136,12 @@ TEST_F(ServerTest, AnAddressGetsItsShareAndStopIsAlwaysHeard) {
   std::vector<std::unique_ptr<Client>> idle;
   for (int i = 0; i < 30; ++i) idle.push_back(std::make_unique<Client>(server.port()));
   for (int i = 0; i < 20 && !ports.stops.size(); ++i)
-    ask("POST /api/v1/stop HTTP/1.1\r\nContent-Length: 0\r\n\r\n");
+    ask("POST /api/v1/stop HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n");
   EXPECT_FALSE(ports.stops.try_pop()) << "the share is taken; another address would be heard";
   idle.resize(4);
   std::string answer;
   for (int i = 0; i < 200 && answer.empty(); ++i) {
-    answer = ask("POST /api/v1/stop HTTP/1.1\r\nContent-Length: 0\r\n\r\n");
+    answer = ask("POST /api/v1/stop HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n");
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   EXPECT_THAT(answer, StartsWith("HTTP/1.1 204"));
@@ -159,7 +152,7 @@ TEST_F(ServerTest, APortThatIsTakenIsSaidInOneLine) {
   ServerConfig second = config();
   second.port = server.port();
   try {
-    Server another(ports, clock, gate, second, {});
+    Server another(ports, clock, access, second, {});
     FAIL() << "two servers on one port";
   } catch (const std::runtime_error& e) {
     EXPECT_EQ(std::string(e.what()),
@@ -170,7 +163,7 @@ TEST_F(ServerTest, APortThatIsTakenIsSaidInOneLine) {
 
 TEST_F(ServerTest, EndsWhileClientsAreThere) {
   std::optional<Server> other;
-  other.emplace(ports, clock, gate, config(), ServerFacts());
+  other.emplace(ports, clock, access, config(), ServerFacts());
   const Client idle(other->port()), watching(other->port()), driving(other->port());
   watching.say(upgrade("video"));
   watching.hear("\r\n\r\n");

@@ -82,6 +82,7 @@ test("the golden messages mean to another reader what they mean to ours", () => 
 
 test("map: everything once, the nearest first; then only what is newer", async () => {
   await until(async () => (await robot.metric("dynslam_map_chunks")) > 15, "a map");
+  await until(async () => (await robot.json("/api/v1/state")).t_s > 5, "a map that is sure of itself", 20000);
   const messages = await wholeMap(mapHave());
   const seen = new Map();
   for (const m of messages) for (const c of m.chunks) seen.set(`${c.x},${c.y}`, c);

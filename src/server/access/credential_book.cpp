@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "server/access/credential_book.h"
+
+#include <algorithm>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+
+namespace dynslam {
+namespace {
+
+using nlohmann::json;
+using Kind = Credential::Kind;
+
+constexpr int kVersion = 1;
+constexpr std::int64_t kLatest_s = 253402300799;  // the end of the year 9999
+
+constexpr std::string_view to_string(Kind kind) { return kind == Kind::kSession ? "session" : "token"; }
+
+json json_of(const Credential& c) {
+  return {{"id", c.id},
+          {"kind", to_string(c.kind)},
+          {"name", c.name},
+          {"role", to_string(c.role)},
+          {"digest", hex_of(c.digest)},
+          {"created_s", c.created.time_since_epoch().count()},
+          {"last_seen_s", c.last_seen.time_since_epoch().count()}};
+}
+
+[[noreturn]] void fail(const std::string& what) { throw InputError(what); }
+
+CredentialBook::WallTime time_from(const json& number) {
+  const auto seconds = number.get<std::int64_t>();
+  if (seconds < 0 || seconds > kLatest_s) fail("a time that cannot be");
+  return CredentialBook::WallTime(std::chrono::seconds(seconds));
+}
+
+Credential credential_from(const json& from) {
+  Credential c;
+  c.id = from.at("id").get<std::string>();
+  const auto kind = from.at("kind").get<std::string>();
+  if (kind != to_string(Kind::kSession) && kind != to_string(Kind::kToken)) fail("an unknown kind");
+  c.kind = kind == to_string(Kind::kToken) ? Kind::kToken : Kind::kSession;
+  c.name = from.at("name").get<std::string>();
+  const auto role = role_named(from.at("role").get<std::string>());
+  const auto digest = digest_from_hex(from.at("digest").get<std::string>());
+  if (!role) fail("an unknown role");
+  if (!digest || c.id.empty() || !is_name(c.name)) fail("a malformed credential");
+  c.role = *role;
+  c.digest = *digest;
+  c.created = time_from(from.at("created_s"));
+  c.last_seen = time_from(from.at("last_seen_s"));
+  return c;
+}
+
+std::vector<Credential> credentials_from(const json& from) {
+  if (from.at("version").get<int>() != kVersion) fail("a version that this program does not know");
+  std::vector<Credential> all;
+  std::set<std::string> ids;
+  for (const json& one : from.at("credentials").get_ref<const json::array_t&>()) {
+    all.push_back(credential_from(one));
+    if (!ids.insert(all.back().id).second) fail("the same id twice");
+  }
+  if (all.size() > CredentialBook::kMost) fail("too many credentials");
+  return all;
+}
+
+/// The bytes of the UTF-8 character that the text begins with; 0 when it does not.
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  const std::size_t length = first < 0x80 ? 1 : first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+  if (length == 0 || first > 0xf4 || length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  // Too long a form, half of a surrogate pair, beyond Unicode.
+  const unsigned char second = length > 1 ? byte(1) : 0;
+  if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
+      (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f))
+    return 0;
+  return length;
+}
+
+}  // namespace
+
+bool is_name(std::string_view text) {
+  if (text.empty() || text.size() > CredentialBook::kLongestName) return false;
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    const auto first = static_cast<unsigned char>(text.front());
+    const bool is_control = first < 0x20 || first == 0x7f ||
+                            (first == 0xc2 && length == 2 && static_cast<unsigned char>(text[1]) < 0xa0);
+    if (length == 0 || is_control) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+bool CredentialBook::remove(const std::string& id) {
+  return std::erase_if(all_, [&](const Credential& c) { return c.id == id; }) > 0;
+}
+
+void CredentialBook::drop_expired(WallTime now) {
+  std::erase_if(all_, [&](const Credential& c) { return !is_valid(c, now); });
+}
+
+Credential* CredentialBook::find(Kind kind, const Digest& digest, WallTime now) {
+  Credential* found = nullptr;
+  for (Credential& c : all_)
+    if (is_same(c.digest, digest) && c.kind == kind && is_valid(c, now)) found = &c;
+  return found;
+}
+
+Credential* CredentialBook::find(const std::string& id, WallTime now) {
+  const auto found = std::find_if(all_.begin(), all_.end(), [&](const Credential& c) { return c.id == id; });
+  return found != all_.end() && is_valid(*found, now) ? &*found : nullptr;
+}
+
+bool CredentialBook::has_admin(WallTime now) const {
+  return std::any_of(all_.begin(), all_.end(),
+                     [&](const Credential& c) { return c.role == Role::kAdmin && is_valid(c, now); });
+}
+
+std::vector<Credential> CredentialBook::all(WallTime now) const {
+  std::vector<Credential> valid;
+  for (const Credential& c : all_)
+    if (is_valid(c, now)) valid.push_back(c);
+  return valid;
+}
+
+std::string CredentialBook::to_json() const {
+  json credentials = json::array();
+  for (const Credential& c : all_) credentials.push_back(json_of(c));
+  return json{{"version", kVersion}, {"credentials", credentials}}.dump(1) + '\n';
+}
+
+void CredentialBook::read_json(std::string_view text) {
+  try {
+    all_ = credentials_from(json::parse(text));
+  } catch (const json::parse_error&) {
+    fail("no whole JSON");
+  } catch (const json::exception&) {
+    fail("something missing or of the wrong type");
+  }
+}
+
+/// A clock that was set back makes nothing invalid.
+bool CredentialBook::is_valid(const Credential& credential, WallTime now) const {
+  return credential.kind == Kind::kToken || now - credential.last_seen < session_lasts_;
+}
+
+}  // namespace dynslam
