@@ -62,7 +62,7 @@ twice_the_same() {
 step_replay() { twice_the_same replay "$recording" --set slam.trusted_range_m=30; }
 
 step_sim() {
-  toolchain/host.sh run
+  toolchain/host.sh run sim --headless --speed 0 --out out
   [[ -s out/map.png ]]
   twice_the_same sim --headless --speed 0 --duration 60 --seed 7 --world clutter
   toolchain/host.sh run replay "$first/recording.mcap" --out "$second" --quiet
@@ -71,13 +71,17 @@ step_sim() {
 }
 
 # What leaves the robot, read with the packages that others read it with.
+need_npm() {
+  command -v npm >/dev/null || need nodejs npm
+  quietly npm --prefix tests/web ci --no-audit --no-fund
+}
+
 step_web() {
   need ccache
-  command -v npm >/dev/null || need nodejs npm
   toolchain/host.sh build
-  cd tests/web
-  quietly npm ci --no-audit --no-fund
-  npm run --silent recording
+  need_npm
+  npm --prefix tests/web run --silent recording
+  npm --prefix tests/web run --silent server
 }
 
 step_asan() {
@@ -95,6 +99,11 @@ step_soak() {
   quietly cmake --preset asan
   quietly cmake --build --preset asan --target dynslam_soak
   build/asan/tests/tools/soak/dynslam_soak --minutes 30
+  need_npm
+  quietly cmake --build --preset asan --target dynslam
+  # What was freed is kept to find out who uses it still: little, or that is what grows.
+  DYNSLAM=$PWD/build/asan/src/dynslam ASAN_OPTIONS=quarantine_size_mb=16 \
+    node tests/web/server/soak.mjs "${SOAK_SECONDS:-1800}" 32
 }
 
 step_format() {
@@ -120,6 +129,8 @@ step_tsan() {
   # Its shadow memory leaves no room for addresses as random as some kernels make them.
   run_tests build/tsan setarch --addr-no-randomize
   setarch --addr-no-randomize build/tsan/src/dynslam sim --headless --duration 120
+  need_npm
+  DYNSLAM=$PWD/build/tsan/src/dynslam setarch --addr-no-randomize node tests/web/server/soak.mjs 120 256
 }
 
 step_coverage() {
@@ -129,7 +140,7 @@ step_coverage() {
   run_tests build/coverage
   local lines=build/coverage/lines.json folder failed=0
   quietly gcovr --root . --object-directory build/coverage --filter src/ --json "$lines"
-  for folder in base grid pipe io slam drive sim robot; do
+  for folder in base grid pipe io slam drive sim robot server; do
     # Never --output to a device: gcovr, run by root, puts a file in its place.
     gcovr --root . --add-tracefile "$lines" --filter "src/$folder/" --fail-under-line 90 \
       --print-summary --output "$logs/gcovr.txt" >"$logs/gcovr" || failed=1
@@ -178,8 +189,9 @@ fresh_debian() {
   quietly mmdebstrap --variant=minbase "$1" "$root" "$(toolchain/mirror.sh)"
   git clone --quiet --no-hardlinks . "$root/root/dynslam"
   echo "commit $(git log -1 --format='%h %s')$(git diff --quiet HEAD || echo ', without what is not committed')"
-  for job in test run test; do
+  for job in test "run sim --headless --speed 0 --out /root/dynslam/out" test; do
     began=$SECONDS
+    # shellcheck disable=SC2086 # a job and its arguments
     unshare --mount --pid --fork --kill-child --root "$root" --mount-proc env -i \
       HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin CMAKE_BUILD_PARALLEL_LEVEL="$CMAKE_BUILD_PARALLEL_LEVEL" \
       /root/dynslam/toolchain/host.sh $job

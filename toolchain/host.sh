@@ -5,7 +5,7 @@ set -eu
 
 usage() {
   echo "usage: toolchain/host.sh build | test | run [ARGUMENTS OF dynslam]" >&2
-  echo "       run alone lets a simulated robot map a flat, into out/" >&2
+  echo "       run alone serves a simulated robot in a flat, until Ctrl-C" >&2
   exit 2
 }
 case ${1-} in
@@ -40,8 +40,7 @@ case $job in
     ;;
   run)
     [ $# = 0 ] || exec "$dynslam" "$@"
-    say "a simulated robot drives through a furnished flat, some seconds"
-    "$dynslam" sim --headless --speed 0 --out "$root/out"
-    echo "the map is in $root/out/map.png, the flat as it is in $root/out/world.svg"
+    say "a simulated robot in a furnished flat, until Ctrl-C; open in a browser:"
+    exec "$dynslam" sim
     ;;
 esac

@@ -92,7 +92,8 @@ test("forged cookies and tokens are nobody's", async () => {
 test("an invitation pairs one browser, once; its cookie is for the robot alone", async () => {
   const { code, role } = await checkAnswer("post", "/api/v1/invitations", await robot.post("/api/v1/invitations", { role: "driver" }));
   assert.equal(role, "driver");
-  const paired = await robot.post("/api/v1/pair", { code, name: "Ada's phone" });
+  let paired;  // wrong codes were tried from here before: that is slowed down, not forbidden
+  await until(async () => (paired = await robot.post("/api/v1/pair", { code, name: "Ada's phone" })).status !== 429, "leave to pair", 60000);
   assert.equal(paired.status, 200);
   assert.match(paired.headers.get("set-cookie"), /^dynslam_session=[^;]+;.*HttpOnly.*SameSite=Strict/);
   assert.deepEqual(await checkAnswer("post", "/api/v1/pair", paired), { name: "Ada's phone", role: "driver" });
@@ -140,16 +141,16 @@ test("a recording is begun, ended, fetched and deleted", async () => {
   assert.equal((await robot.fetch("/api/v1/recordings", { method: "DELETE" })).status, 204);
   await until(async () => !(await recording()).active, "its end");
   const listed = await checkAnswer("get", "/api/v1/recordings", await robot.fetch("/api/v1/recordings"));
-  assert.deepEqual(listed.recordings.map((r) => r.name), [file]);
+  const mine = listed.recordings.find((r) => r.name === file);
   const answer = await robot.fetch(`/api/v1/recordings/${file}`);
   assert.match(answer.headers.get("content-disposition"), /attachment/);
   const bytes = await checkAnswer("get", "/api/v1/recordings/{name}", answer);
-  assert.equal(bytes.length, listed.recordings[0].bytes);
+  assert.equal(bytes.length, mine.bytes);
   assert.deepEqual([...bytes.subarray(0, 5)], [0x89, 0x4d, 0x43, 0x41, 0x50]);
   for (const name of ["..%2f..%2fetc%2fpasswd", ".hidden.mcap", "access.json", "nothing.mcap", "..", "%2e%2e%2fx.mcap"])
     assert.equal((await robot.fetch(`/api/v1/recordings/${name}`)).status, 404, name);
   assert.equal((await robot.fetch(`/api/v1/recordings/${file}`, { method: "DELETE" })).status, 204);
-  assert.deepEqual((await robot.json("/api/v1/recordings")).recordings, []);
+  assert.ok(!(await robot.json("/api/v1/recordings")).recordings.some((r) => r.name === file));
 });
 
 test("the contract gives each operation a role", () => {
