@@ -23,7 +23,6 @@ namespace dynslam {
 class WayIn {
  public:
   struct Refusal {
-    int status = 403;
     const char* counter = "";  ///< its kind
     std::string why;           ///< one sentence
   };
