@@ -62,9 +62,10 @@ void WayIn::set_addresses(const std::vector<std::string>& addresses) {
   own_networks_.clear();
   for (const std::string& text : addresses) {
     const auto network = parse_network(text);
+    if (!network) continue;
+    own_networks_.push_back({network->base, 128});
     // A public IPv4 subnet is shared by strangers; a home's IPv6 addresses are all public.
-    if (network && !network->base.is_v4() && network->bits >= kSmallestSubnet)
-      own_networks_.push_back(*network);
+    if (!network->base.is_v4() && network->bits >= kSmallestSubnet) own_networks_.push_back(*network);
   }
 }
 

@@ -106,7 +106,11 @@ TEST(CredentialBook, SaysWhatIsWrongWithAJson) {
       {with("Anna", "\\n"), "a malformed credential"},
       {with("\"id\": \"a\"", "\"id\": \"b\""), "the same id twice"},
       {with("\"created_s\": 1728000000", "\"created_s\": -1"), "a time that cannot be"},
-      {with("\"last_seen_s\": 1728000000", "\"last_seen_s\": 9e18"), "a time that cannot be"},
+      {with("\"last_seen_s\": 1728000000", "\"last_seen_s\": 253402300800"), "a time that cannot be"},
+      {with("\"last_seen_s\": 1728000000", "\"last_seen_s\": 18446744073709551615"), "a time that cannot be"},
+      {with("\"last_seen_s\": 1728000000", "\"last_seen_s\": 1e99"),
+       "something missing or of the wrong type"},
+      {with("\"version\": 1", "\"version\": 1e99"), "something missing or of the wrong type"},
       {many, "too many credentials"},
   };
   for (const auto& [text, message] : rows) {

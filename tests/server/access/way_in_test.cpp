@@ -46,7 +46,7 @@ class WayInTest : public testing::Test {
 
 TEST_F(WayInTest, LetsNearClientsAsk) {
   for (const char* near : {"127.0.0.1", "::1", "192.168.7.7", "::ffff:10.0.0.1", "fe80::1%wlan0", "fd12::1",
-                           "100.64.1.1", "2001:db8:1:2::99"})
+                           "100.64.1.1", "2001:db8:1:2::99", "8.8.4.4", "2a00::1"})
     EXPECT_EQ(from(near), "") << near;
   for (const char* far : {"8.8.8.8", "8.8.4.5", "2001:db8:1:3::99", "2a00::2", "", "garbage", "10.0.0.1:80"})
     EXPECT_EQ(from(far), "far_client") << far;
@@ -58,9 +58,10 @@ TEST_F(WayInTest, ForgetsSubnetsThatItLeft) {
 }
 
 TEST_F(WayInTest, AnswersToItsNames) {
-  for (const char* ours : {"localhost", "LOCALHOST:8080", "localhost.", "robbie", "robbie.home:1",
-                           "robbie.local:8080", "robot.example.org", "127.0.0.1:8080", "192.168.1.7", "[::1]",
-                           "[fe80::1]:8080", "[fd00::1]", "10.9.8.7:80", "100.64.1.1", "[2001:db8:1:2::7]"})
+  for (const char* ours :
+       {"localhost", "LOCALHOST:8080", "localhost.", "robbie", "robbie.home:1", "robbie.local:8080",
+        "robot.example.org", "127.0.0.1:8080", "192.168.1.7", "[::1]", "[fe80::1]:8080", "[fd00::1]",
+        "10.9.8.7:80", "100.64.1.1", "[2001:db8:1:2::7]", "8.8.4.4:80"})
     EXPECT_EQ(to(ours), "") << ours;
   for (const char* foreign : {"evil.org", "evil.org:8080", "localhost.evil.org", "robbie.local.evil.org",
                               "robbie.lan", "example.org", "8.8.8.8", "[2001:db8::1]", "0.0.0.0", "0x7f.1",
