@@ -12,31 +12,26 @@ Wheel::Client Wheel::enter() {
 
 void Wheel::leave(Client client) {
   const std::lock_guard lock(mutex_);
-  if (holder_ == client) let_go();
+  if (lease_.release(client)) command({}, true);
 }
 
 bool Wheel::acquire(Client client, const std::string& name, bool take_over, SteadyTime now) {
   const std::lock_guard lock(mutex_);
-  const bool held = holder_ != 0 && holder_ != client;
-  if (held && !take_over && now - heard_at_ < kHeldFor) return false;
-  if (held) let_go();
-  holder_ = client;
-  name_ = name;
-  heard_at_ = now;
-  return true;
+  const DriverLease::Answer answer = lease_.acquire({client, name}, take_over, now);
+  if (answer.relieved) command({}, true);
+  return answer.granted;
 }
 
 void Wheel::release(Client client) { leave(client); }
 
 void Wheel::touch(Client client, SteadyTime now) {
   const std::lock_guard lock(mutex_);
-  if (holder_ == client) heard_at_ = now;
+  lease_.renew(client, now);
 }
 
 std::optional<Wheel::Sent> Wheel::drive(Client client, const Twist& wanted) {
   const std::lock_guard lock(mutex_);
-  if (client == 0 || holder_ != client) return std::nullopt;
-  note_answered();
+  if (!lease_.holder() || lease_.holder()->client != client) return std::nullopt;
   return command({std::clamp(wanted.v_mps, -limits_.v_mps, limits_.v_mps),
                   std::clamp(wanted.w_radps, -limits_.w_radps, limits_.w_radps)},
                  false);
@@ -44,8 +39,8 @@ std::optional<Wheel::Sent> Wheel::drive(Client client, const Twist& wanted) {
 
 Wheel::Holder Wheel::holder(Client client) const {
   const std::lock_guard lock(mutex_);
-  if (holder_ == 0) return {};
-  return {holder_ == client, name_};
+  if (!lease_.holder()) return {};
+  return {lease_.holder()->client == client, lease_.holder()->name};
 }
 
 std::optional<Wheel::Answered> Wheel::answered() {
@@ -62,6 +57,7 @@ Wheel::Delays Wheel::delays() {
 
 /// A number no smaller than any that another commander may have used meanwhile.
 Wheel::Sent Wheel::command(const Twist& twist, bool gone) {
+  note_answered();
   if (const auto last = ports_.command.get().value) seq_ = std::max(seq_, last->seq);
   const Sent sent{++seq_, clock_.now()};
   ports_.command.put({sent.seq, twist, sent.heard, gone});
@@ -75,12 +71,6 @@ void Wheel::note_answered() {
   if (answered_ && drive->command->seq <= answered_->seq) return;
   answered_ = Answered{drive->command->seq, drive->driven - drive->command->heard};
   (drive->command->gone ? delays_.drop_to_off : delays_.command_to_motor).add(answered_->delay);
-}
-
-void Wheel::let_go() {
-  note_answered();
-  holder_ = 0;
-  command({}, true);
 }
 
 }  // namespace dynslam

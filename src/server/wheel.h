@@ -8,6 +8,7 @@
 
 #include "pipe/clock.h"
 #include "robot/ports.h"
+#include "server/access/driver_lease.h"
 #include "server/delay_histogram.h"
 
 namespace dynslam {
@@ -21,10 +22,8 @@ struct TwistLimits {
 /// commands is stamped with the robot's clock; when he is gone the robot stops. Any thread.
 class Wheel {
  public:
-  using Client = std::uint64_t;
-  using SteadyTime = Clock::SteadyTime;
-  /// A holder who says nothing for so long may be relieved by anybody who may drive.
-  static constexpr std::chrono::seconds kHeldFor{10};
+  using Client = DriverLease::Client;
+  using SteadyTime = DriverLease::SteadyTime;
 
   Wheel(Ports& ports, const Clock& clock, const TwistLimits& limits)
       : ports_(ports), clock_(clock), limits_(limits) {}
@@ -69,15 +68,13 @@ class Wheel {
  private:
   Sent command(const Twist& twist, bool gone);
   void note_answered();
-  void let_go();
 
   Ports& ports_;
   const Clock& clock_;
   TwistLimits limits_;
   mutable std::mutex mutex_;
-  Client clients_ = 0, holder_ = 0;  ///< 0: nobody
-  std::string name_;
-  SteadyTime heard_at_;
+  Client clients_ = 0;
+  DriverLease lease_;
   std::uint64_t seq_ = 0;
   std::optional<Answered> answered_;
   Delays delays_;

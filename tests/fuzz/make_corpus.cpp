@@ -3,6 +3,7 @@
 #include <iostream>
 #include <string>
 
+#include "server/access/credential_book.h"
 #include "tests/io/mcap_builder.h"
 
 namespace dynslam::test {
@@ -25,7 +26,23 @@ std::string mcap(const McapBuilder::Options& options) {
   return file.finish().substr(McapBuilder::magic().size());
 }
 
+void write_access(const std::string& folder) {
+  const std::string secret(43, 'A');
+  write(folder + "/http_headers/browser",
+        "192.168.1.5\nPOST\n\nrobot.local:8080\nhttp://robot.local:8080\ntheme=dark; dynslam_session=" +
+            secret + "\n");
+  write(folder + "/http_headers/program",
+        "::ffff:10.0.0.1\nGET\nupgrade\n[fd00::1]:80\n\n\nBearer " + secret);
+  write(folder + "/http_headers/stranger", "fe80::1%wlan0\nPUT\n\nABCD-0123\nhttps://8.8.8.8\n10.0.0.0/8\n");
+  CredentialBook book{std::chrono::days(90)};
+  const std::chrono::sys_seconds day(std::chrono::days(20000));
+  book.add({"a", Credential::Kind::kSession, "phone", Role::kAdmin, digest_of("a"), day, day});
+  book.add({"b", Credential::Kind::kToken, "J\xc3\xbcrgen", Role::kViewer, digest_of("b"), day, day});
+  write(folder + "/access_file/two", book.to_json());
+}
+
 void write_all(const std::string& folder) {
+  write_access(folder);
   write(folder + "/mcap/flat", mcap({std::nullopt, 2, true, false}));
   write(folder + "/mcap/plain", mcap({"", 2, false, false}));
   write(folder + "/mcap/zstd", mcap({"zstd", 2, false, true}));

@@ -74,8 +74,8 @@ struct Access::State {
   }
 
   void load(const std::string& folder);
-  Judgement judge(const AccessRequest& request, Role needed, const AccessTime& now,
-                  std::optional<WayIn::Refusal> refusal);
+  using Check = std::optional<WayIn::Refusal> (WayIn::*)(const AccessRequest&) const;
+  Judgement judge(const AccessRequest& request, Role needed, const AccessTime& now, Check check);
   Judgement identify(const AccessRequest& request, const Shown& shown, const AccessTime& now);
   void see(Credential& credential, const AccessTime& now);
   Admission take(const std::string& typed, const std::string& address, const AccessTime& now,
@@ -112,12 +112,12 @@ void Access::State::load(const std::string& folder) {
 }
 
 Judgement Access::State::judge(const AccessRequest& request, Role needed, const AccessTime& now,
-                               std::optional<WayIn::Refusal> refusal) {
+                               Check check) {
   const Shown shown(request);
   const std::lock_guard lock(mutex);
-  if (refusal) {
+  if (const auto refusal = (way_in.*check)(request)) {
     counts.add(refusal->counter);
-    return refused(refusal->status, refusal->why);
+    return refused(403, refusal->why);
   }
   Judgement judgement = identify(request, shown, now);
   if (judgement.role >= needed) return judgement;
@@ -218,17 +218,11 @@ Access::~Access() {
 }
 
 Judgement Access::judge(const AccessRequest& request, Role needed, const AccessTime& now) {
-  std::unique_lock lock(state_->mutex);
-  auto refusal = state_->way_in.refuse(request);
-  lock.unlock();
-  return state_->judge(request, needed, now, std::move(refusal));
+  return state_->judge(request, needed, now, &WayIn::refuse);
 }
 
 Judgement Access::judge_stop(const AccessRequest& request, const AccessTime& now) {
-  std::unique_lock lock(state_->mutex);
-  auto refusal = state_->way_in.refuse_stop(request);
-  lock.unlock();
-  return state_->judge(request, Role::kNone, now, std::move(refusal));
+  return state_->judge(request, Role::kNone, now, &WayIn::refuse_stop);
 }
 
 std::string Access::why_ended(const std::string& id, Role needed, const AccessTime& now) {
@@ -258,10 +252,10 @@ Admission Access::pair(const std::string& code, const std::string& name, const s
   if (!is_name(name)) return no_admission(422, "a name has 1 to 64 bytes and no control characters");
   PairingCode taken;
   Admission admission = state_->take(code, address, now, taken);
-  if (admission.status != 200) return admission;
+  if (!admission.is_in()) return admission;
   admission = state_->admit(Kind::kSession, name, taken.role, now);
   const std::lock_guard lock(state_->mutex);
-  if (admission.status != 200) {
+  if (!admission.is_in()) {
     state_->codes.put_back(std::move(taken));
   } else if (taken.role == Role::kAdmin) {
     state_->codes.drop_for_owner();

@@ -27,7 +27,7 @@ struct AccessSetup {
 
 /// Whether somebody is let in, and as whom.
 struct Judgement {
-  int status = 200;         ///< 200, or what the answer's status must be: 400, 401, 403
+  int status = 200;         ///< 200, or what the answer's status must be: 401 or 403; 404 or 500 of revoke()
   std::string why;          ///< one sentence for the client; empty when let in
   Role role = Role::kNone;  ///< may be more than was needed
   std::string id;           ///< of the credential; empty for a stranger
@@ -43,6 +43,7 @@ struct Admission {
   Credential credential;
   std::string secret;      ///< shown this once, kept nowhere; of a session it is in `set_cookie`
   std::string set_cookie;  ///< of a session: value of the header Set-Cookie
+  bool is_in() const { return status == 200; }
 };
 
 /// Who may do what: pairs people's browsers and programs with the robot, knows them again, and keeps

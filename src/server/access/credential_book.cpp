@@ -31,8 +31,14 @@ json json_of(const Credential& c) {
 
 [[noreturn]] void fail(const std::string& what) { throw InputError(what); }
 
+/// The library would turn fractions and numbers beyond all limits into something.
+std::int64_t whole_number(const json& number) {
+  if (!number.is_number_integer()) fail("something missing or of the wrong type");
+  return number.get<std::int64_t>();
+}
+
 CredentialBook::WallTime time_from(const json& number) {
-  const auto seconds = number.get<std::int64_t>();
+  const std::int64_t seconds = whole_number(number);
   if (seconds < 0 || seconds > kLatest_s) fail("a time that cannot be");
   return CredentialBook::WallTime(std::chrono::seconds(seconds));
 }
@@ -56,7 +62,7 @@ Credential credential_from(const json& from) {
 }
 
 std::vector<Credential> credentials_from(const json& from) {
-  if (from.at("version").get<int>() != kVersion) fail("a version that this program does not know");
+  if (whole_number(from.at("version")) != kVersion) fail("a version that this program does not know");
   std::vector<Credential> all;
   std::set<std::string> ids;
   for (const json& one : from.at("credentials").get_ref<const json::array_t&>()) {

@@ -48,7 +48,9 @@ std::optional<int> parse_port(std::string_view text, int default_port) {
 std::optional<std::string> plain_host_name(std::string_view text) {
   if (text.ends_with('.')) text.remove_suffix(1);
   std::string name = lowered(text);
-  if (name.empty() || name.size() > kLongestName || !std::all_of(name.begin(), name.end(), is_name_letter))
+  const bool has_empty_part =
+      name.empty() || name.starts_with('.') || name.ends_with('.') || name.find("..") != std::string::npos;
+  if (has_empty_part || name.size() > kLongestName || !std::all_of(name.begin(), name.end(), is_name_letter))
     return std::nullopt;
   return name;
 }

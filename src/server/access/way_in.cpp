@@ -62,9 +62,10 @@ void WayIn::set_addresses(const std::vector<std::string>& addresses) {
   own_networks_.clear();
   for (const std::string& text : addresses) {
     const auto network = parse_network(text);
+    if (!network) continue;
+    own_networks_.push_back({network->base, 128});
     // A public IPv4 subnet is shared by strangers; a home's IPv6 addresses are all public.
-    if (network && !network->base.is_v4() && network->bits >= kSmallestSubnet)
-      own_networks_.push_back(*network);
+    if (!network->base.is_v4() && network->bits >= kSmallestSubnet) own_networks_.push_back(*network);
   }
 }
 
@@ -91,9 +92,8 @@ bool WayIn::is_ours(const std::string& host) const {
 std::optional<Refusal> WayIn::refuse_client(const AccessRequest& request) const {
   const auto address = parse_ip(request.address);
   if (address && is_near(*address)) return std::nullopt;
-  return Refusal{403, "access.far_client",
-                 "only clients of private networks are let in, not " + shown(request.address) +
-                     "; access.client_networks can name more"};
+  return Refusal{"access.far_client", "only clients of private networks are let in, not " +
+                                          shown(request.address) + "; access.client_networks can name more"};
 }
 
 std::optional<Refusal> WayIn::refuse_host(const AccessRequest& request) const {
@@ -101,19 +101,19 @@ std::optional<Refusal> WayIn::refuse_host(const AccessRequest& request) const {
   if (!request.host) return std::nullopt;
   const auto host = parse_host(*request.host, 0);
   if (host && is_ours(host->host)) return std::nullopt;
-  return Refusal{403, "access.foreign_host",
+  return Refusal{"access.foreign_host",
                  "this robot is not known as " + shown(*request.host) + "; access.allowed_hosts can name it"};
 }
 
 std::optional<Refusal> WayIn::refuse_origin(const AccessRequest& request) const {
   if (!request.origin) {
     if (!has_session_cookie(request) || has_bearer(request)) return std::nullopt;
-    return Refusal{403, "access.no_origin", "a request with a cookie that changes something needs an Origin"};
+    return Refusal{"access.no_origin", "a request with a cookie that changes something needs an Origin"};
   }
   const auto origin = parse_origin(*request.origin);
   if (origin && request.host && parse_host(*request.host, origin->default_port) == origin->at)
     return std::nullopt;
-  return Refusal{403, "access.foreign_origin",
+  return Refusal{"access.foreign_origin",
                  "a page of " + shown(*request.origin) + " may not do this to the robot"};
 }
 

@@ -14,7 +14,8 @@ namespace dynslam {
 
 /// Whether a request may be looked at, whoever it is from. Pure; the caller locks.
 ///
-/// - The client must be near: loopback, a private network, the same IPv6 subnet, or a network of the config.
+/// - The client must be near: this machine, a private network, the same IPv6 subnet, or a network of the
+/// config.
 /// - Host must be a name of this machine or a near address. Another name that leads here belongs to a foreign
 ///   page that rebinds it (DNS rebinding), and the browser takes that page for ours.
 /// - Origin, if there is one, must be the Host on a WebSocket's handshake and on an unsafe method. Browsers
@@ -23,7 +24,6 @@ namespace dynslam {
 class WayIn {
  public:
   struct Refusal {
-    int status = 403;
     const char* counter = "";  ///< its kind
     std::string why;           ///< one sentence
   };
@@ -48,7 +48,7 @@ class WayIn {
 
   std::vector<std::string> names_;
   std::vector<IpNetwork> networks_;      ///< of the config
-  std::vector<IpNetwork> own_networks_;  ///< IPv6 subnets that the machine is in
+  std::vector<IpNetwork> own_networks_;  ///< the machine itself and the IPv6 subnets it is in
 };
 
 /// The cookie that holds a session.
