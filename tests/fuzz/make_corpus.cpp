@@ -3,6 +3,7 @@
 #include <iostream>
 #include <string>
 
+#include "io/ros_writer.h"
 #include "server/access/credential_book.h"
 #include "tests/io/mcap_builder.h"
 
@@ -41,12 +42,31 @@ void write_access(const std::string& folder) {
   write(folder + "/access_file/two", book.to_json());
 }
 
+/// As a robot of ours records.
+std::string recorded() {
+  std::string bytes;
+  McapWriter mcap([&](std::string_view more) { bytes += more; });
+  mcap.begin("dynslam", "dynslam", {{"config", "{}"}});
+  RosWriter ros(mcap);
+  const Time t(std::chrono::milliseconds(100));
+  Scan scan{t, {}, {{0.1, 0.0, 0.2}, true, 0.2}};
+  for (const float angle : {0.0F, 0.1F, 0.25F, 0.3F}) scan.beams.push_back({angle, 2.0F, angle});
+  ros.write(t, scan);
+  ros.write(t, ImuSample{t});
+  mcap.close_chunk();
+  ros.write(t, PoseFix{});
+  mcap.close_chunk();
+  mcap.finish();
+  return bytes.substr(kMcapMagic.size());
+}
+
 void write_all(const std::string& folder) {
   write_access(folder);
   write(folder + "/mcap/flat", mcap({std::nullopt, 2, true, false}));
   write(folder + "/mcap/plain", mcap({"", 2, false, false}));
   write(folder + "/mcap/zstd", mcap({"zstd", 2, false, true}));
   write(folder + "/mcap/lz4", mcap({"lz4", 2, true, false}));
+  write(folder + "/mcap/recorded", recorded());
   const std::string flaser = "FLASER 3 1.25 2.5 81.91 1 2 3 4 5 0.5 12.25 host 0.1\n";
   write(folder + "/carmen/flaser",
         "PARAM robot_front_laser_max 50 0 h 0\nPARAM laser_front_laser_fov 180 0 h 0\n" + flaser +

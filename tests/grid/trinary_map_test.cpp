@@ -30,5 +30,19 @@ TEST(TrinaryMap, IsCroppedToWhatIsKnown) {
   EXPECT_EQ(map.at(2, 1), CellState::kUnknown);
 }
 
+TEST(TrinaryMap, CoarserKeepsWalls) {
+  ChunkedGrid grid(0.05);
+  draw(grid, {".. .", ". #.", "....", "    "}, {-3, -2});
+  const TrinaryMap map = coarser(trinary_map(grid.snapshot()));
+  EXPECT_DOUBLE_EQ(map.cell_size_m, 0.1);
+  EXPECT_EQ(map.origin, (CellIndex{-2, -1}));
+  ASSERT_EQ(map.width, 3);
+  ASSERT_EQ(map.height, 2);
+  EXPECT_EQ(map.at(0, 0), CellState::kFree);
+  EXPECT_EQ(map.at(1, 1), CellState::kOccupied);
+  EXPECT_EQ(map.at(2, 1), CellState::kFree);
+  EXPECT_EQ(coarser(TrinaryMap{}).width, 0);
+}
+
 }  // namespace
 }  // namespace dynslam

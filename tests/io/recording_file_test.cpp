@@ -2,7 +2,6 @@
 #include "io/recording_file.h"
 
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -10,11 +9,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/mount.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "io/mcap_file.h"
 #include "io/recording_folder.h"
+#include "tests/io/file_size_limit.h"
 #include "tests/io/read_all.h"
 
 namespace dynslam {
@@ -51,24 +50,6 @@ class RecordingFiles : public ::testing::Test {
   }
 
   fs::path folder_;
-};
-
-/// No file of this process grows beyond `bytes` while this lives.
-class FileLimit {
- public:
-  explicit FileLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileLimit() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
 };
 
 /// Scans with ranges that do not pack, a chunk each, until there is no more room. How many there were.
@@ -137,7 +118,7 @@ TEST_F(RecordingFiles, AFullDiskLeavesWholeChunksWhereverItEnds) {
     std::string trouble;
     int scans = -1;
     {
-      const FileLimit only(limit);
+      const test::FileSizeLimit only(limit);
       try {
         McapFile file(path, 0, "test", {});
         scans = fill(file, trouble);

@@ -1,40 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "io/safe_file.h"
 
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "tests/io/file_size_limit.h"
 
 namespace dynslam {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// While it lives, writing a file beyond `bytes` fails as on a full disk, for root too.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &old_limit_);
-    const rlimit limit{bytes, old_limit_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &old_limit_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-
- private:
-  rlimit old_limit_{};
-  void (*old_handler_)(int);
-};
+using test::FileSizeLimit;
 
 class OutputFolderTest : public testing::Test {
  protected:
@@ -177,6 +160,31 @@ TEST_F(OutputFolderTest, FailsToCommitWhatWasTakenAway) {
   out.stage("map.pgm", "new");
   fs::remove(root_ / ".map.pgm.partial");
   EXPECT_THROW(out.commit(), std::runtime_error);
+}
+
+TEST_F(OutputFolderTest, NamesAFileThatIsWrittenElsewhere) {
+  write("a", "older");
+  write("b", "older");
+  write(".a.partial", "left behind by a killed run");
+  OutputFolder out(root_.string());
+  const std::string a = out.reserve("a");
+  out.reserve("b");
+  EXPECT_FALSE(fs::exists(a));
+  std::ofstream(a) << "newer";
+  EXPECT_EQ(read("a"), "older");
+  out.commit();
+  EXPECT_EQ(names(), std::set<std::string>{"a"}) << "an older b would be of another run";
+  EXPECT_EQ(read("a"), "newer");
+}
+
+TEST_F(OutputFolderTest, DiscardsWhatIsWrittenElsewhereWithoutCommit) {
+  {
+    OutputFolder out(root_.string());
+    std::ofstream(out.reserve("a")) << "never to be seen";
+    fs::create_directory(root_ / "taken");
+    EXPECT_THROW(out.reserve("taken"), std::runtime_error);
+  }
+  EXPECT_EQ(names(), std::set<std::string>{"taken"});
 }
 
 TEST_F(OutputFolderTest, BelongsToOneRunAtATime) {

@@ -88,6 +88,25 @@ TEST(TfTreeTest, IsBounded) {
   EXPECT_TRUE(tree.add("base_link", "7", {1.0, 0.0, 0.0}, kNoTurn));
 }
 
+TEST(TfTreeTest, HeightsAreFromTheFloor) {
+  TfTree tree;
+  EXPECT_TRUE(tree.add("base_footprint", "base_link", {0.0, 0.0, 0.05}, kNoTurn));
+  EXPECT_EQ(tree.height_m("laser"), std::nullopt);
+  EXPECT_TRUE(tree.add("base_link", "laser", {0.1, 0.0, 0.2}, kNoTurn));
+  EXPECT_NEAR(tree.height_m("/laser").value(), 0.25, 1e-12);
+  EXPECT_TRUE(tree.add("tower", "camera", {0.0, 0.0, 0.7}, kNoTurn));
+  EXPECT_EQ(tree.height_m("camera"), std::nullopt) << "it does not stand on the robot's floor";
+  EXPECT_TRUE(tree.add("laser", "base_footprint", Vector3d::Zero(), kNoTurn));
+  EXPECT_EQ(tree.height_m("laser"), std::nullopt) << "round in circles";
+}
+
+TEST(TfTreeTest, HeightsAreFromAFloorThatHangsFromTheRobotToo) {
+  TfTree tree;
+  EXPECT_TRUE(tree.add("base_link", "base_footprint", {0.0, 0.0, -0.05}, kNoTurn));
+  EXPECT_TRUE(tree.add("base_link", "laser", {0.1, 0.0, 0.2}, kNoTurn));
+  EXPECT_NEAR(tree.height_m("laser").value(), 0.25, 1e-12);
+}
+
 TEST(TfMessageTest, GoodTransformsAreTakenBesideABadOne) {
   const std::string bytes =
       test::transforms({{"base_link", "mast", 1.0}, {"mast", "mast"}, {"mast", "laser", 2.0}});
