@@ -28,8 +28,8 @@ IpNetwork network(const char* text) { return *parse_network(text); }
 bool IpAddress::is_v4() const { return std::equal(kV4Prefix.begin(), kV4Prefix.end(), bytes.begin()); }
 
 bool IpAddress::is_loopback() const {
-  static const IpNetwork v4 = network("127.0.0.0/8"), v6 = network("::1");
-  return v4.contains(*this) || v6.contains(*this);
+  static const IpNetwork kV4 = network("127.0.0.0/8"), kV6 = network("::1");
+  return kV4.contains(*this) || kV6.contains(*this);
 }
 
 std::optional<IpAddress> parse_ip(std::string_view text) {
@@ -67,12 +67,13 @@ std::optional<IpNetwork> parse_network(std::string_view text) {
 }
 
 const std::vector<IpNetwork>& private_networks() {
-  static const std::vector<IpNetwork> all = {network("127.0.0.0/8"),    network("::1"),            // loopback
-                                             network("10.0.0.0/8"),     network("172.16.0.0/12"),  // RFC 1918
-                                             network("192.168.0.0/16"), network("169.254.0.0/16"),
-                                             network("fe80::/10"),  // link-local
-                                             network("fc00::/7")};  // unique local
-  return all;
+  static const std::vector<IpNetwork> kAll = {
+      network("127.0.0.0/8"),    network("::1"),            // loopback
+      network("10.0.0.0/8"),     network("172.16.0.0/12"),  // RFC 1918
+      network("192.168.0.0/16"), network("169.254.0.0/16"),
+      network("fe80::/10"),  // link-local
+      network("fc00::/7")};  // unique local
+  return kAll;
 }
 
 }  // namespace dynslam

@@ -27,18 +27,19 @@ bool is_dark(const QRcode& code, int x, int y) {
 }  // namespace
 
 std::vector<std::string> page_urls(const std::vector<std::string>& addresses, int port) {
-  static const IpNetwork link_local = *parse_network("fe80::/10");
+  static const IpNetwork kLinkLocal = *parse_network("fe80::/10");
   std::vector<std::pair<int, std::string>> ranked;
   for (const std::string& text : addresses) {
     const std::string host = text.substr(0, text.find('/'));
     const auto address = parse_ip(host);
-    if (!address || link_local.contains(*address)) continue;
+    if (!address || kLinkLocal.contains(*address)) continue;
     const std::string shown = host.find(':') == std::string::npos ? host : '[' + host + ']';
     ranked.emplace_back(rank_of(*address), "http://" + shown + ':' + std::to_string(port) + '/');
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> urls;
+  urls.reserve(ranked.size());
   for (auto& [rank, url] : ranked) urls.push_back(std::move(url));
   return urls;
 }

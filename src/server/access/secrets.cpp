@@ -17,16 +17,16 @@ constexpr int kBase64 = sodium_base64_VARIANT_URLSAFE_NO_PADDING;
 constexpr std::string_view kLetters = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";
 
 void need_sodium() {
-  static const int ready = sodium_init();
-  if (ready < 0) throw std::runtime_error("no random numbers: libsodium does not start");
+  static const int kReady = sodium_init();
+  if (kReady < 0) throw std::runtime_error("no random numbers: libsodium does not start");
 }
 
-template <std::size_t kBytes>
+template <std::size_t Bytes>
 std::string random_base64() {
   need_sodium();
-  std::array<unsigned char, kBytes> bytes;
+  std::array<unsigned char, Bytes> bytes;
   randombytes_buf(bytes.data(), bytes.size());
-  std::array<char, sodium_base64_ENCODED_LEN(kBytes, kBase64)> text;
+  std::array<char, sodium_base64_ENCODED_LEN(Bytes, kBase64)> text;
   sodium_bin2base64(text.data(), text.size(), bytes.data(), bytes.size(), kBase64);
   return text.data();
 }
