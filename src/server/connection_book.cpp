@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "server/connection_book.h"
 
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 
 namespace dynslam {
 namespace {
 
-constexpr std::chrono::milliseconds kLookEvery{250};
+constexpr std::chrono::milliseconds kLookEvery{100};
+
+bool is_all_read(int socket) {
+  int unread = 0;
+  return ioctl(socket, FIONREAD, &unread) != 0 || unread == 0;
+}
 
 /// The thread that serves it finds it closed. REQUIRES: the book is locked.
 void cut(const Connection& connection) {
@@ -106,8 +112,9 @@ void ConnectionBook::note_new() {
 }
 
 void ConnectionBook::cut_overdue() {
-  for (const Seats::Id id : seats_.overdue(std::chrono::steady_clock::now()))
-    cut(connections_.at(peers_.at(id)));
+  const auto of = [this](Seats::Id id) -> const Connection& { return connections_.at(peers_.at(id)); };
+  const auto is_heard = [&of](Seats::Id id) { return of(id).closing || is_all_read(of(id).socket); };
+  for (const Seats::Id id : seats_.overdue(std::chrono::steady_clock::now(), is_heard)) cut(of(id));
 }
 
 }  // namespace dynslam

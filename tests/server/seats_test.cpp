@@ -18,6 +18,10 @@ Seats::SteadyTime at(double s) {
       std::chrono::duration_cast<Seats::SteadyTime::duration>(std::chrono::duration<double>(s)));
 }
 
+std::vector<Seats::Id> overdue(const Seats& seats, double s) {
+  return seats.overdue(at(s), [](Seats::Id) { return true; });
+}
+
 TEST(Seats, AnAddressGetsItsShare) {
   Seats seats({10, 2, 3});
   for (int i = 0; i < 3; ++i) EXPECT_NE(seats.open("a", at(0)), 0U);
@@ -31,28 +35,44 @@ TEST(Seats, AnAddressGetsItsShare) {
 }
 
 TEST(Seats, TheLastOnesAreForDrivingAndTheVeryLastForStop) {
-  Seats seats({10, 4, 10});
-  std::vector<Seats::Id> ids;
-  for (int i = 0; i < 7; ++i) ids.push_back(seats.open("a", at(0)));
-  EXPECT_FALSE(seats.use(ids[6], Use::kWatch, at(0))) << "three are free, four are kept";
-  EXPECT_FALSE(seats.use(ids[6], Use::kRequest, at(0)));
-  EXPECT_TRUE(seats.use(ids[6], Use::kControl, at(0)));
-  for (int i = 0; i < 2; ++i) ids.push_back(seats.open("a", at(0)));
-  EXPECT_FALSE(seats.use(ids[8], Use::kControl, at(0)));
-  EXPECT_TRUE(seats.use(ids[8], Use::kStop, at(0)));
-  seats.close(ids[0]);
-  EXPECT_TRUE(seats.use(ids[7], Use::kControl, at(0)));
+  Seats seats({10, 4, 20});
+  const auto enter = [&](Use use) { return seats.use(seats.open("a", at(0)), use, at(0)); };
+  for (int i = 0; i < 6; ++i) EXPECT_TRUE(enter(Use::kWatch));
+  EXPECT_FALSE(enter(Use::kWatch)) << "four are kept";
+  EXPECT_TRUE(enter(Use::kControl)) << "two are kept still";
+  EXPECT_FALSE(enter(Use::kRequest));
+  EXPECT_FALSE(enter(Use::kControl));
+  EXPECT_TRUE(enter(Use::kStop));
+  EXPECT_EQ(seats.refused(), 3U);
+  for (Seats::Id id = 1; id <= 6; ++id) seats.close(id);
+  EXPECT_TRUE(enter(Use::kControl));
+}
+
+TEST(Seats, WhoAsksForNothingNeverStandsInTheWay) {
+  Seats seats({10, 4, 100});
+  for (int i = 0; i < 50; ++i) seats.open("a", at(0));  // more than there are: they wait for one
+  EXPECT_TRUE(seats.use(7, Use::kControl, at(0)));
+  EXPECT_TRUE(seats.use(8, Use::kRequest, at(0)));
+}
+
+TEST(Seats, WhoHasAskedButWasNotHeardYetIsNotCut) {
+  Seats seats({4, 2, 4});
+  for (int i = 0; i < 4; ++i) seats.open("a", at(0));
+  EXPECT_THAT(seats.overdue(at(1), [](Seats::Id id) { return id != 1 && id != 2; }), ElementsAre(3, 4));
 }
 
 TEST(Seats, WhoAsksForNothingMakesRoomTheOldestFirst) {
   Seats seats({6, 2, 6});
   for (int i = 0; i < 4; ++i) seats.open("a", at(i));
   seats.use(2, Use::kWatch, at(4));
-  EXPECT_THAT(seats.overdue(at(4)), IsEmpty());
+  EXPECT_THAT(overdue(seats, 4), IsEmpty());
   seats.open("b", at(4));
-  EXPECT_THAT(seats.overdue(at(4)), ElementsAre(1));
+  EXPECT_THAT(overdue(seats, 4), ElementsAre(1));
   seats.open("b", at(4));
-  EXPECT_THAT(seats.overdue(at(4)), ElementsAre(1, 3)) << "2 looks on";
+  EXPECT_THAT(overdue(seats, 4), ElementsAre(1, 3)) << "2 looks on";
+  seats.open("b", at(4));
+  EXPECT_THAT(overdue(seats, 4.1), ElementsAre(1, 3)) << "the others have only come";
+  EXPECT_THAT(overdue(seats, 4.3), ElementsAre(1, 3));
 }
 
 TEST(Seats, NobodyKeepsASeatForNothing) {
@@ -61,10 +81,10 @@ TEST(Seats, NobodyKeepsASeatForNothing) {
   seats.use(seats.open("a", at(0)), Use::kRequest, at(0));
   seats.use(seats.open("a", at(0)), Use::kDownload, at(0));
   seats.use(seats.open("a", at(0)), Use::kControl, at(0));
-  EXPECT_THAT(seats.overdue(at(4.9)), IsEmpty());
-  EXPECT_THAT(seats.overdue(at(5.1)), ElementsAre(1));
-  EXPECT_THAT(seats.overdue(at(20.1)), ElementsAre(1, 2));
-  EXPECT_THAT(seats.overdue(at(1e4)), ElementsAre(1, 2));
+  EXPECT_THAT(overdue(seats, 4.9), IsEmpty());
+  EXPECT_THAT(overdue(seats, 5.1), ElementsAre(1));
+  EXPECT_THAT(overdue(seats, 20.1), ElementsAre(1, 2));
+  EXPECT_THAT(overdue(seats, 1e4), ElementsAre(1, 2));
 }
 
 TEST(Seats, WhoIsGoneHasNoUse) {
