@@ -51,8 +51,7 @@ Serving::Serving(Ports& ports, const Clock& clock, const Config& config, const S
   server_.emplace(ports, clock, access_, server, facts_of(config, options));
   const std::string host = server.bind.empty() ? "localhost" : server.bind;
   print("http://" + host + ':' + std::to_string(server_->port()) + "/\n");
-  if (const auto code = access_.owner_code(AccessTime::now()))
-    print(pairing_notice(*code, own_addresses(), server_->port()));
+  tell_owner_code();
   tends_ = std::thread([this] { tend(); });
 }
 
@@ -61,10 +60,19 @@ Serving::~Serving() {
   tends_.join();
 }
 
+/// Whenever it is another than before: it gets old, and there is a new one when nobody is an admin any more.
+void Serving::tell_owner_code() {
+  const auto code = access_.owner_code(AccessTime::now());
+  if (!code || code->text == owner_code_) return;
+  owner_code_ = code->text;
+  print(pairing_notice(*code, own_addresses(), server_->port()));
+}
+
 void Serving::tend() {
   while (!ends_.wait(std::chrono::steady_clock::now() + kTendEvery)) {
     access_.set_addresses(own_addresses());
     access_.tend(AccessTime::now());
+    tell_owner_code();
   }
 }
 

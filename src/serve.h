@@ -31,9 +31,11 @@ class Serving {
 
  private:
   void tend();
+  void tell_owner_code();
 
   Access access_;
   std::optional<Server> server_;
+  std::string owner_code_;  ///< as told last
   StopSignal ends_;
   std::thread tends_;
 };

@@ -75,6 +75,8 @@ std::string head_of(const HttpAnswer& answer, std::size_t size) {
   add("Cache-Control", "no-store");
   add("X-Content-Type-Options", "nosniff");
   add("Referrer-Policy", "no-referrer");
+  // Nor may a foreign page show the map as a picture where this machine is trusted.
+  add("Cross-Origin-Resource-Policy", "same-origin");
   add("Content-Security-Policy",
       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
       "connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'self'; "
