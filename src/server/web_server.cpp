@@ -277,6 +277,8 @@ bool WebServer::Implementation::listen_on(const std::string& where) {
                             "16384",
                             "linger_timeout_ms",
                             "-2",
+                            "listen_backlog",
+                            "1024",
                             nullptr};
   mg_context* started = mg_start(&callbacks, this, settings);
   if (started == nullptr) return false;
