@@ -65,7 +65,10 @@ void Serving::tell_owner_code() {
   const auto code = access_.owner_code(AccessTime::now());
   if (!code || code->text == owner_code_) return;
   owner_code_ = code->text;
-  print(pairing_notice(*code, own_addresses(), server_->port()));
+  std::vector<std::string> addresses = own_addresses();
+  if (!Server::answers_ipv6())
+    std::erase_if(addresses, [](const std::string& a) { return a.find(':') != std::string::npos; });
+  print(pairing_notice(*code, addresses, server_->port()));
 }
 
 void Serving::tend() {

@@ -18,7 +18,9 @@ void SlamStage::turn() {
   while (auto sample = imu_.try_pop()) slam_.add(*sample);
   if (scan) slam_.add(Scan(**scan));
   while (auto correction = corrections_.try_pop()) slam_.correct(std::move(*correction));
-  while (const auto result = slam_.next()) {
+  while (!closed_) {
+    const auto result = slam_.next();
+    if (!result) return;
     while (auto job = slam_.take_job()) jobs_.push(std::move(*job));
     show(*result);
   }
@@ -32,11 +34,13 @@ void SlamStage::graph_turn() {
 }
 
 void SlamStage::close() {
+  closed_ = true;
   scans_.close();
   jobs_.close();
 }
 
 void SlamStage::finish() {
+  closed_ = false;
   turn();
   while (const auto job = jobs_.try_pop()) slam_.correct(slam_.work_off(*job));
   slam_.finish();

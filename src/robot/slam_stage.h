@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -29,7 +30,7 @@ class SlamStage {
   void turn();
   /// For the graph thread: waits a moment for a complete local map and closes its loops.
   void graph_turn();
-  /// Nobody waits any more.
+  /// Nobody waits any more, nor works off what has piled up: that is left to finish().
   void close();
   /// Works off what is under way. REQUIRES: no other thread is in here.
   void finish();
@@ -44,6 +45,7 @@ class SlamStage {
   Ports& ports_;
   const Clock& clock_;
   Notice notice_;
+  std::atomic<bool> closed_{false};
   Time counters_due_;
   BoundedQueue<ImuSample> imu_{256};
   BoundedQueue<std::shared_ptr<const Scan>> scans_{4};

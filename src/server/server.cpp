@@ -32,7 +32,7 @@ Seats::Limits limits_of(const ServerConfig& config) {
 }  // namespace
 
 Server::Server(Ports& ports, const Clock& clock, Access& access, const ServerConfig& config,
-               ServerFacts facts, AutopilotPort autopilot)
+               const ServerFacts& facts, AutopilotPort autopilot)
     : ports_(ports),
       clock_(clock),
       gate_(access),

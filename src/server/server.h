@@ -20,10 +20,11 @@ namespace dynslam {
 class Server {
  public:
   /// All references must outlive this. Throws std::runtime_error, in one line, when it cannot listen.
-  Server(Ports& ports, const Clock& clock, Access& access, const ServerConfig& config, ServerFacts facts,
-         AutopilotPort autopilot = {});
+  Server(Ports& ports, const Clock& clock, Access& access, const ServerConfig& config,
+         const ServerFacts& facts, AutopilotPort autopilot = {});
 
   int port() const { return web_.port(); }
+  static bool answers_ipv6() { return WebServer::answers_ipv6(); }
   /// Whether a person holds the wheel: then nobody else commands.
   bool is_driven() const { return wheel_.holder(0).driver.has_value(); }
 

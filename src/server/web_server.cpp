@@ -158,7 +158,8 @@ void knock(int port) {
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<std::uint16_t>(port));
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof(address));
+  // Whether anybody answers does not matter: it is being asked that wakes.
+  static_cast<void>(connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof(address)));
   close(socket);
 }
 
@@ -368,6 +369,8 @@ WebServer::WebServer(const Options& options, Handlers handlers)
   implementation_->start();
 }
 WebServer::~WebServer() { implementation_->stop(); }
+
+bool WebServer::answers_ipv6() { return mg_check_feature(MG_FEATURES_IPV6) != 0; }
 
 int WebServer::port() const { return implementation_->port; }
 std::size_t WebServer::connections() const { return implementation_->book.taken(); }

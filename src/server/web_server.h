@@ -39,6 +39,8 @@ class WebServer {
   WebServer& operator=(const WebServer&) = delete;
 
   int port() const;
+  /// Whether it can be asked by IPv6: Debian 12's civetweb cannot.
+  static bool answers_ipv6();
   std::size_t connections() const;
   std::uint64_t refused() const;  ///< connections and requests for which there was no seat
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shows the state and the map, and stops the robot.
+// Pairs this browser, shows the state and the map, and stops the robot.
 "use strict";
 
 const $ = (id) => document.getElementById(id);
@@ -43,9 +43,34 @@ function watch() {
   socket.onclose = () => setTimeout(watch, 2000);
 }
 
+async function pair(code, name) {
+  try {
+    const answer = await fetch("api/v1/pair", {
+      method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ code, name }),
+    });
+    $("pair").hidden = answer.ok;
+    say(answer.ok ? "paired" : (await answer.json()).error);
+  } catch {
+    say("the robot does not answer");
+  }
+}
+$("name").value = /iPhone|iPad|Android/.exec(navigator.userAgent)?.[0] ?? "Browser";
+$("pair").addEventListener("submit", (event) => {
+  event.preventDefault();
+  pair($("code").value, $("name").value);
+});
+// The link of a QR code; what is behind the # was not sent anywhere, and works once.
+const invitation = /^#pair=([\w-]+)$/.exec(location.hash);
+if (invitation) {
+  history.replaceState(null, "", location.pathname);
+  $("code").value = invitation[1];
+  pair(invitation[1], $("name").value);
+}
+
 async function refreshMap() {
   try {
     const answer = await fetch("api/v1/map.png");
+    $("pair").hidden = answer.status !== 401;
     if (answer.ok) {
       const before = $("map").src;
       $("map").src = URL.createObjectURL(await answer.blob());
