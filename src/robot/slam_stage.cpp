@@ -40,9 +40,14 @@ void SlamStage::close() {
 }
 
 void SlamStage::finish() {
-  closed_ = false;
-  turn();
+  while (auto sample = imu_.try_pop()) slam_.add(*sample);
+  while (const auto scan = scans_.try_pop()) slam_.add(Scan(**scan));
+  while (auto correction = corrections_.try_pop()) slam_.correct(std::move(*correction));
   while (const auto job = jobs_.try_pop()) slam_.correct(slam_.work_off(*job));
+  while (const auto result = slam_.next()) {
+    while (const auto job = slam_.take_job()) slam_.correct(slam_.work_off(*job));
+    show(*result);
+  }
   slam_.finish();
 }
 
