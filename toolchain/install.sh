@@ -5,6 +5,11 @@ set -eu
 
 missing=
 for package; do
+  # Node.js from elsewhere is as good, and Debian's cannot be put beside it.
+  case $package in
+    nodejs) ! command -v node >/dev/null || continue ;;
+    npm) ! command -v npm >/dev/null || continue ;;
+  esac
   status=$(dpkg-query --show --showformat '${db:Status-Status}' "$package" 2>/dev/null) || status=unknown
   [ "$status" = installed ] || missing="$missing $package"
 done

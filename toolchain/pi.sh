@@ -20,7 +20,7 @@ export CTEST_PARALLEL_LEVEL="${CTEST_PARALLEL_LEVEL:-$CMAKE_BUILD_PARALLEL_LEVEL
 # shellcheck source=toolchain/quiet.sh
 . "$root/toolchain/quiet.sh"
 
-"$root/toolchain/install.sh" cmake ninja-build pkg-config crossbuild-essential-arm64 mmdebstrap qemu-user-static
+"$root/toolchain/install.sh" cmake ninja-build nodejs npm pkg-config crossbuild-essential-arm64 mmdebstrap qemu-user-static
 
 # Made anew when the list of libraries changes; complete once its list is written.
 if [ "$(cat "$sysroot/packages" 2>/dev/null)" != "$packages" ]; then
@@ -47,7 +47,7 @@ fi
 
 say "building for arm64"
 quietly cmake -S "$root" -B "$build" -G Ninja --toolchain "$root/toolchain/arm64.cmake" \
-  -DCMAKE_BUILD_TYPE=Release -DDYNSLAM_WERROR=ON
+  -DCMAKE_BUILD_TYPE=Release -DDYNSLAM_WERROR=ON -DDYNSLAM_WEB=ON
 quietly cmake --build "$build"
 if [ "$1" = test ]; then
   say "testing under emulation"

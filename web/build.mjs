@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Makes the page: `node build.mjs OUT`. Every file in OUT is gzipped, as it goes into the program.
+import { Buffer } from "node:buffer";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename } from "node:path";
 import { fileURLToPath } from "node:url";

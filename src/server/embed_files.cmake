@@ -1,28 +1,50 @@
-# Writes OUT, the source that holds FILES as embedded_files.h says.
-set(entries "")
-foreach(file IN LISTS FILES)
+# Writes OUT, the source that holds FILES, and the gzipped PAGE, as embedded_files.h says.
+function(add_entry list file text)
   get_filename_component(name "${file}" NAME)
+  set(${list} "${${list}}    {\"${name}\", ${text}},\n" PARENT_SCOPE)
+endfunction()
+
+set(texts "")
+foreach(file IN LISTS FILES)
   file(READ "${file}" text)
-  string(APPEND entries "    {\"${name}\", R\"file(${text})file\"},\n")
+  add_entry(texts "${file}" "R\"file(${text})file\"")
 endforeach()
+
+set(page "")
+foreach(file IN LISTS PAGE)
+  file(READ "${file}" hex HEX)
+  string(LENGTH "${hex}" digits)
+  math(EXPR bytes "${digits} / 2")
+  string(REGEX REPLACE "(................................)" "\\1\"\n    \"" hex "${hex}")
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" hex "${hex}")
+  add_entry(page "${file}" "{\"${hex}\", ${bytes}}")
+endforeach()
+
 file(WRITE "${OUT}" "// Made by embed_files.cmake.
 #include \"server/embedded_files.h\"
 
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
 namespace dynslam {
+namespace {
+
+constexpr EmbeddedFile kTexts[] = {
+${texts}};
+// With one more at the end, as there may be none.
+constexpr EmbeddedFile kPage[] = {
+${page}    {}};
+
+}  // namespace
 
 std::string_view embedded_file(std::string_view name) {
-  struct File {
-    std::string_view name, text;
-  };
-  static constexpr File kFiles[] = {
-${entries}  };
-  for (const File& file : kFiles)
-    if (file.name == name) return file.text;
-  throw std::logic_error(\"there is no file \" + std::string(name) + \" in the program\");
+  for (const EmbeddedFile& file : kTexts)
+    if (file.name == name) return file.bytes;
+  throw std::logic_error(std::string(\"there is no such file in the program: \").append(name));
 }
+
+std::span<const EmbeddedFile> embedded_page() { return {kPage, std::size(kPage) - 1}; }
 
 }  // namespace dynslam
 ")

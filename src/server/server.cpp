@@ -4,7 +4,7 @@
 #include <random>
 
 #include "server/control_channel.h"
-#include "server/embedded_files.h"
+#include "server/page_routes.h"
 
 namespace dynslam {
 namespace {
@@ -55,23 +55,9 @@ WebServer::Handlers Server::handlers(Access& access) {
   api_.add_to(routes_);
   access_api_.add_to(routes_);
   recordings_api_.add_to(routes_);
-  add_page("/", "index.html", "text/html; charset=utf-8");
-  add_page("/page.js", "page.js", "text/javascript; charset=utf-8");
-  add_page("/page.css", "page.css", "text/css; charset=utf-8");
+  add_page(routes_, gate_);
   return {[this](const HttpRequest& request) { return routes_.answer(request); },
           [this](const HttpRequest& request) { return open(request); }, use_of};
-}
-
-/// What strangers need to come in by is nothing that they may not see.
-void Server::add_page(const char* path, const char* file, const char* type) {
-  routes_.add("GET", path, [this, file, type](const HttpRequest& request, const std::string&) {
-    const Gate::Decision decision = gate_.admit(request, Role::kNone);
-    if (decision.refusal) return *decision.refusal;
-    HttpAnswer answer;
-    answer.type = type;
-    answer.body = embedded_file(file);
-    return answer;
-  });
 }
 
 std::variant<std::unique_ptr<Channel>, HttpAnswer> Server::open(const HttpRequest& request) {

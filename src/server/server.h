@@ -30,7 +30,6 @@ class Server {
 
  private:
   WebServer::Handlers handlers(Access& access);
-  void add_page(const char* path, const char* file, const char* type);
   std::variant<std::unique_ptr<Channel>, HttpAnswer> open(const HttpRequest& request);
 
   Ports& ports_;

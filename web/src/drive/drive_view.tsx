@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+
+export function DriveView() {
+  return <section class="view" />;
+}

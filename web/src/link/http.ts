@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+
+/** The robot answered, and would not. */
+export class Refused extends Error {
+  constructor(
+    readonly status: number,
+    message: string,
+  ) {
+    super(message);
+  }
+}
+
+/** The robot did not answer. */
+export class NoAnswer extends Error {}
+
+const PATIENCE_MS = 8000;
+
+type Method = "GET" | "POST" | "PATCH" | "DELETE";
+
+/** Asks the robot; gives the JSON of its answer, or undefined when that has none. Throws Refused or NoAnswer. */
+export async function ask<T>(method: Method, path: string, body?: unknown): Promise<T> {
+  const answer = await request(method, path, body);
+  if (answer.status === 204) return undefined as T;
+  const text = await answer.text().catch(() => "");
+  const json = parse(text);
+  if (!answer.ok) throw new Refused(answer.status, errorIn(json) ?? answer.statusText);
+  return json as T;
+}
+
+async function request(method: Method, path: string, body: unknown): Promise<Response> {
+  const patience = new AbortController();
+  const timer = setTimeout(() => patience.abort(), PATIENCE_MS);
+  try {
+    return await fetch(path, {
+      method,
+      cache: "no-store",
+      signal: patience.signal,
+      ...(body === undefined ? {} : { headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) }),
+    });
+  } catch {
+    throw new NoAnswer();
+  } finally {
+    clearTimeout(timer);
+  }
+}
+
+function parse(text: string): unknown {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return undefined;
+  }
+}
+
+function errorIn(json: unknown): string | undefined {
+  return typeof json === "object" && json !== null && "error" in json && typeof json.error === "string" ? json.error : undefined;
+}

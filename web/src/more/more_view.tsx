@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+
+export function MoreView() {
+  return <section class="view" />;
+}

@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+
+export function PairView() {
+  return <section class="view" />;
+}
