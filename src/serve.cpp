@@ -32,7 +32,7 @@ AccessSetup access_setup(const Config& config, const ServeOptions& options) {
   AccessSetup setup;
   setup.config = config.access;
   setup.host_name = own_host_name();
-  setup.trust_loopback = !options.world.empty();
+  setup.trust_loopback = config.access.simulation_pairs_itself && !options.world.empty();
   setup.addresses = own_addresses();
   return setup;
 }

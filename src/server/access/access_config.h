@@ -15,6 +15,7 @@ struct AccessConfig {
   std::vector<std::string> client_networks;
   int session_days = 90;
   int invitation_min = 15;
+  bool simulation_pairs_itself = true;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -28,6 +29,12 @@ struct AccessConfig {
     visit(Field{"session_days", "who was not seen for longer must pair anew", 1, 400}, self.session_days);
     visit(Field{"invitation_min", "how many minutes a code lasts that lets somebody in", 1, 1440},
           self.invitation_min);
+    visit(
+        Field{
+            "simulation_pairs_itself",
+            "with a simulated robot, whoever asks from this machine is an admin without pairing; false where "
+            "a proxy on it lets others in"},
+        self.simulation_pairs_itself);
   }
 
   /// What the limits of single fields cannot say, one line; nothing when all is well.

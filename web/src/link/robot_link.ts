@@ -68,6 +68,11 @@ export class RobotLink {
     void this.ask_who();
   }
 
+  get mayDrive(): boolean {
+    const role = this.me.value?.role;
+    return role === "driver" || role === "admin";
+  }
+
   /** What this page's driver wants; nothing unless it holds the wheel. */
   drive(twist: Twist): void {
     this.heartbeat.want(twist);
@@ -106,11 +111,6 @@ export class RobotLink {
   async meet(): Promise<void> {
     await this.ask_who();
     this.reconnect();
-  }
-
-  private get mayDrive(): boolean {
-    const role = this.me.value?.role;
-    return role === "driver" || role === "admin";
   }
 
   private reconnect(): void {

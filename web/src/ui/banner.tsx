@@ -15,11 +15,10 @@ export function Banner() {
   if (phase === "connecting") return <p class="banner banner-wait" role="status">{strings.link.connecting}</p>;
   if (phase === "lost") return <p class="banner banner-bad" role="alert">{strings.link.lost}</p>;
   if (phase === "stranger" || latched.value === null) return null;
-  const role = robot.me.value?.role;
   return (
     <div class="banner banner-bad" role="alert">
       <span>{`${strings.link.stopped}: ${latched.value}`}</span>
-      {(role === "driver" || role === "admin") && (
+      {robot.mayDrive && (
         <button type="button" onClick={() => void robot.asked("POST", "api/v1/clear_stop")}>{strings.clearStop}</button>
       )}
     </div>
