@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /** Everything that steers or is pressed, joined to the robot. */
 import { effect, signal } from "@preact/signals";
-import * as map from "../map/commands";
+import * as map from "../map/map_view";
 import { robot } from "../robot";
 import { showNext, view } from "../ui/view";
 import { rumble, watchGamepad, type PadAction } from "./gamepad";
