@@ -179,7 +179,7 @@ export const strings = {
     },
     people: {
       you: "You",
-      youAre: (name: string, role: string) => `You are ${name}, ${role}.`,
+      youAre: (name: string, role: string) => `You are ${name} (${role}).`,
       logout: "Log out",
       logoutQuestion: "Log out? You need a new code to come back.",
       stillIn: "The session is forgotten. Pages on the robot's own machine need none.",

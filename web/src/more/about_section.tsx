@@ -24,8 +24,8 @@ export function AboutSection() {
         <dl class="facts">
           <div><dt>{words.version}</dt><dd>{health?.version ?? "…"}</dd></div>
           <div><dt>{words.uptime}</dt><dd>{health ? clockText(health.uptime_s) : "…"}</dd></div>
-          <div><dt>{words.address}</dt><dd class="breaks">{location.origin}</dd></div>
           {worlds?.current && <div><dt>{words.world}</dt><dd>{worlds.current}</dd></div>}
+          <div class="wide"><dt>{words.address}</dt><dd class="breaks">{location.origin}</dd></div>
         </dl>
       </Part>
       <Part title={words.programs}>

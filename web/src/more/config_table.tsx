@@ -2,7 +2,7 @@
 import { useId, useState } from "preact/hooks";
 import { strings } from "../strings";
 import { useAsked } from "./asking";
-import { Part, Trouble } from "./parts";
+import { Breakable, Part, Trouble } from "./parts";
 
 type Value = number | string | boolean | unknown[];
 type Config = Record<string, Record<string, Value>>;
@@ -46,7 +46,7 @@ function Table({ rows }: { rows: (readonly [string, string])[] }) {
     <table>
       <thead><tr><th scope="col">{words.setting}</th><th scope="col" class="number">{words.value}</th></tr></thead>
       <tbody>
-        {rows.map(([key, text]) => <tr key={key}><th scope="row"><code>{key}</code></th><td class="number">{text}</td></tr>)}
+        {rows.map(([key, text]) => <tr key={key}><th scope="row"><code><Breakable text={key} /></code></th><td class="number">{text}</td></tr>)}
       </tbody>
     </table>
   );

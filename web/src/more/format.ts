@@ -3,18 +3,18 @@
 
 const UNITS = ["B", "kB", "MB", "GB", "TB"];
 
-/** "113 kB", "1.2 GB": powers of 1000, as disks are sold. */
+/** "113 kB", "1.2 GB": powers of 1000, as disks are sold. Does not break between lines. */
 export function sizeText(bytes: number): string {
   const power = bytes < 1000 ? 0 : Math.min(UNITS.length - 1, Math.floor(Math.log10(bytes) / 3));
   const value = bytes / 1000 ** power;
   // 999.95 kB would round to "1000 kB".
-  if (value >= 999.5 && power < UNITS.length - 1) return `1.0 ${UNITS[power + 1]}`;
-  return `${power > 0 && value < 9.95 ? value.toFixed(1) : value.toFixed(0)} ${UNITS[power]}`;
+  if (value >= 999.5 && power < UNITS.length - 1) return `1.0\u00a0${UNITS[power + 1]}`;
+  return `${power > 0 && value < 9.95 ? value.toFixed(1) : value.toFixed(0)}\u00a0${UNITS[power]}`;
 }
 
-/** "14 140": thin spaces keep large numbers readable in every language. */
+/** "14 140": narrow spaces keep large numbers readable in every language. */
 export function countText(n: number): string {
-  return String(Math.round(n)).replace(/\B(?=(\d{3})+$)/g, "\u2009");
+  return String(Math.round(n)).replace(/\B(?=(\d{3})+$)/g, "\u202f");
 }
 
 /** "8 s", "3:07", "12:34:56". */

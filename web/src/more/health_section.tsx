@@ -8,7 +8,7 @@ import { useAsked } from "./asking";
 import { ConditionMark } from "./condition_mark";
 import { meaningOf, RisingCounters, type Counts } from "./counters";
 import { ageText, countText } from "./format";
-import { Part, Trouble } from "./parts";
+import { Breakable, Part, Trouble } from "./parts";
 
 const ORDER = ["lidar", "imu", "motors", "camera", "pins"];
 
@@ -103,7 +103,7 @@ function CounterRow({ name, n, hasRisen }: { name: string; n: number; hasRisen: 
   const meaning = meaningOf(name);
   return (
     <tr class={hasRisen ? "risen" : undefined}>
-      <th scope="row"><code>{name}</code>{meaning && <small>{meaning}</small>}</th>
+      <th scope="row"><code><Breakable text={name} /></code>{meaning && <small>{meaning}</small>}</th>
       <td class="number">
         {countText(n)}
         {hasRisen && <small>{strings.more.health.rising}</small>}

@@ -36,6 +36,7 @@ export function MoreView() {
 function SectionList({ current }: { current: Section | null }) {
   return (
     <nav class="more-list" aria-label={strings.more.list}>
+      <h2>{strings.views.more}</h2>
       <ul>
         {SECTIONS.map((name) => (
           <li key={name}>

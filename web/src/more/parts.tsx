@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /** What several sections are built of. */
-import type { ComponentChildren } from "preact";
-import { useEffect, useId, useRef, useState } from "preact/hooks";
+import { Fragment, type ComponentChildren } from "preact";
+import { useEffect, useId, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { strings } from "../strings";
 import { tell } from "../ui/notices";
 import { copyText } from "./clipboard";
@@ -21,6 +21,11 @@ export function Trouble({ text }: { text: string | null }) {
   return text === null ? null : <p class="note" role="status">{text}</p>;
 }
 
+/** A name like `part.some_thing`, which may go on in the next line behind its dots and underscores. */
+export function Breakable({ text }: { text: string }) {
+  return <>{(text.match(/[^._]*[._]?/g) ?? []).map((piece, i) => <Fragment key={i}>{i > 0 && <wbr />}{piece}</Fragment>)}</>;
+}
+
 interface ConfirmProps {
   label: string;
   /** Which one, for who does not see where the button stands. */
@@ -36,7 +41,7 @@ export function ConfirmButton({ label, about, question, yes, onYes }: ConfirmPro
   const keep = useRef<HTMLButtonElement>(null);
   const opener = useRef<HTMLButtonElement>(null);
   const wasOpen = useRef(false);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (isOpen) keep.current?.focus();
     else if (wasOpen.current) opener.current?.focus();
     wasOpen.current = isOpen;
@@ -69,8 +74,8 @@ interface SliderProps {
   max: number;
   step: number;
   text: (value: number) => string;
-  /** When the hand lets go of it. */
-  onSet: (value: number) => void;
+  /** When the hand lets go of it; whether the robot took it. */
+  onSet: (value: number) => Promise<boolean>;
 }
 
 /** Follows the hand while it is moved, and the robot otherwise. */
@@ -80,6 +85,9 @@ export function Slider({ label, value, min, max, step, text, onSet }: SliderProp
   const shown = held ?? value;
   // What the robot says then is right, whatever was asked for.
   useEffect(() => setHeld(null), [value]);
+  const set = async (wanted: number) => {
+    if (!(await onSet(wanted))) setHeld(null);
+  };
   return (
     <div class="slider">
       <label for={id}>{label}</label>
@@ -93,7 +101,7 @@ export function Slider({ label, value, min, max, step, text, onSet }: SliderProp
         value={shown}
         aria-valuetext={text(shown)}
         onInput={(event) => setHeld(Number(event.currentTarget.value))}
-        onChange={(event) => onSet(Number(event.currentTarget.value))}
+        onChange={(event) => void set(Number(event.currentTarget.value))}
       />
       <span class="ends" aria-hidden="true">
         <span>{text(min)}</span>

@@ -18,9 +18,11 @@ export function SettingsSection() {
   );
 }
 
-/** Told of when it was done; when it was not, the robot's words are shown. */
-async function set(method: "POST" | "PATCH", path: string, body: unknown): Promise<void> {
-  if (await robot.asked(method, path, body)) tell(strings.more.settings.done);
+/** Whether it was done, which is told; when it was not, the robot's words are shown. */
+async function set(method: "POST" | "PATCH", path: string, body: unknown): Promise<boolean> {
+  const isDone = await robot.asked(method, path, body);
+  if (isDone) tell(strings.more.settings.done);
+  return isDone;
 }
 
 function PowerLimit() {
@@ -31,7 +33,7 @@ function PowerLimit() {
   return (
     <Part title={words.driving}>
       {may("driver") ? (
-        <Slider label={words.powerLimit} value={Math.round(100 * limit)} min={0} max={100} step={5} text={percent} onSet={(value) => void set("POST", "api/v1/power_limit", { power_limit: value / 100 })} />
+        <Slider label={words.powerLimit} value={Math.round(100 * limit)} min={0} max={100} step={5} text={percent} onSet={(value) => set("POST", "api/v1/power_limit", { power_limit: value / 100 })} />
       ) : <p>{`${words.powerLimit}: ${percent(100 * limit)}`}</p>}
       <p class="note">{words.powerLimitWhat}</p>
     </Part>
@@ -42,13 +44,14 @@ function WhileRunning() {
   const words = strings.more.settings;
   const { value, trouble, again } = useAsked<Settings>("api/v1/settings", 5000);
   const change = async (some: Partial<Settings>) => {
-    await set("PATCH", "api/v1/settings", some);
+    const isDone = await set("PATCH", "api/v1/settings", some);
     again();
+    return isDone;
   };
   return (
     <Part title={words.running}>
       <Trouble text={trouble} />
-      {value && (may("admin") ? <AdminSettings settings={value} onChange={(some) => void change(some)} /> : <ReadSettings settings={value} />)}
+      {value && (may("admin") ? <AdminSettings settings={value} onChange={change} /> : <ReadSettings settings={value} />)}
       {value && <p class="note">{words.untilEnd}</p>}
     </Part>
   );
@@ -66,11 +69,11 @@ function ReadSettings({ settings }: { settings: Settings }) {
   );
 }
 
-function AdminSettings({ settings, onChange }: { settings: Settings; onChange: (some: Partial<Settings>) => void }) {
+function AdminSettings({ settings, onChange }: { settings: Settings; onChange: (some: Partial<Settings>) => Promise<boolean> }) {
   const words = strings.more.settings;
   return (
     <>
-      <NameForm name={settings.name} onSave={(name) => onChange({ name })} />
+      <NameForm name={settings.name} onSave={(name) => void onChange({ name })} />
       <Slider label={words.rayLength} value={settings.trusted_range_m} min={0.5} max={settings.trusted_range_most_m} step={0.5} text={metres} onSet={(trusted_range_m) => onChange({ trusted_range_m })} />
       <p class="note">{words.rayLengthWhat}</p>
     </>
