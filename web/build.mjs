@@ -22,7 +22,7 @@ const bundled = await esbuild.build({
   target: ["chrome94", "firefox100", "safari15.4"],
   jsx: "automatic",
   jsxImportSource: "preact",
-  loader: { ".png": "dataurl" },
+  loader: { ".png": "dataurl", "": "text" }, // "": licences
   legalComments: "none",
   charset: "utf8",
   logLevel: "warning",

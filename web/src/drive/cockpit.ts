@@ -11,6 +11,9 @@ import { Steering } from "./steering";
 
 export const steering = new Steering((twist) => robot.drive(twist));
 
+/** Each time that the gamepad is looked at. */
+const PAN_PX = 12;
+
 export const MINIMAP_SIZES = ["small", "medium", "large"] as const;
 export const minimapSize = signal(1);
 
@@ -58,7 +61,7 @@ export function sitDown(): void {
     changePower,
     switchView: showNext,
   });
-  watchGamepad({ steer: (stick) => steering.set("gamepad", stick), pan: map.pan, act });
+  watchGamepad({ steer: (stick) => steering.set("gamepad", stick), pan: (x, y) => map.pan(-PAN_PX * x, -PAN_PX * y), act });
   // Who gets the wheel, or it back, begins from standing still.
   effect(() => {
     if (robot.wheel.value.mine) void steering.learnLimits();

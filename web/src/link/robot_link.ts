@@ -55,7 +55,7 @@ export class RobotLink {
     closed: () => void this.ask_who(),
   });
   private heard_ms = 0;
-  private asking = false;
+  private asking: Promise<void> | null = null;
 
   start(): void {
     this.heard_ms = performance.now();
@@ -109,6 +109,7 @@ export class RobotLink {
 
   /** After this browser was paired, or has left. */
   async meet(): Promise<void> {
+    await this.asking; // what is asked already may be answered as before
     await this.ask_who();
     this.reconnect();
   }
@@ -118,9 +119,12 @@ export class RobotLink {
     this.states.reconnect();
   }
 
-  private async ask_who(): Promise<void> {
-    if (this.asking) return;
-    this.asking = true;
+  private ask_who(): Promise<void> {
+    this.asking ??= this.hearWho().finally(() => (this.asking = null));
+    return this.asking;
+  }
+
+  private async hearWho(): Promise<void> {
     try {
       this.me.value = await ask<Me>("GET", "api/v1/me");
       if (this.me.value.role === "none") this.phase.value = "stranger";
@@ -128,8 +132,6 @@ export class RobotLink {
       this.grasp();
     } catch (error) {
       if (!(error instanceof NoAnswer)) this.onTrouble((error as Error).message);
-    } finally {
-      this.asking = false;
     }
   }
 
