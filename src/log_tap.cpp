@@ -31,8 +31,9 @@ class PortSink : public spdlog::sinks::base_sink<std::mutex> {
 
  private:
   void sink_it_(const spdlog::details::log_msg& line) override {
-    ports_.log.push(
-        {clock_.now(), level_of(line.level), std::string(line.payload.data(), line.payload.size())});
+    const LogLine told{clock_.now(), level_of(line.level), {line.payload.data(), line.payload.size()}};
+    ports_.log.push(told);
+    ports_.recent_log.push(told);
   }
   void flush_() override {}
 

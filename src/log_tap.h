@@ -9,8 +9,8 @@
 
 namespace dynslam {
 
-/// Hands the lines of the program's log to the robot as well, for its recordings, as long as this lives. To
-/// be made and let go while no other thread logs.
+/// Hands the lines of the program's log to the robot as well, for its recordings and for people, as long as
+/// this lives. To be made and let go while no other thread logs.
 class LogTap {
  public:
   /// Both must outlive it.

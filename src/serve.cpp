@@ -15,12 +15,19 @@ namespace {
 
 constexpr std::chrono::minutes kTendEvery{1};
 
+std::string name_of(const ServerConfig& config) {
+  return config.name.empty() ? own_host_name().substr(0, kLongestRobotName) : config.name;
+}
+
 ServerFacts facts_of(const Config& config, const ServeOptions& options) {
   ServerFacts facts;
   facts.version = DYNSLAM_VERSION;
   facts.config_json = config_json(config).dump();
   facts.world = options.world;
   facts.recordings = config.recorder.folder;
+  facts.name = name_of(config.server);
+  facts.trusted_range_least_m = config.slam.min_range_m;
+  facts.trusted_range_most_m = config.slam.most_trusted_range_m();
   facts.limits = {config.drive.kinematics.max_speed_mps, config.drive.kinematics.max_turn_radps};
   if (!options.world.empty())
     for (const BuiltinWorld& world : builtin_worlds()) facts.worlds.emplace_back(world.name);

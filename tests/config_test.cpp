@@ -282,6 +282,12 @@ TEST_F(ConfigFileTest, ReportsWhatNoLimitSays) {
             (Lines{"access.client_networks: \"10.0.0.0/33\" is no network, as \"100.64.0.0/10\""}));
 }
 
+TEST_F(ConfigFileTest, TakesAnyNameForTheRobotThatCanBeShown) {
+  EXPECT_EQ(make_config(std::nullopt, {"server.name=R\xc3\xb6\xc3\xb6t"}).server.name, "R\xc3\xb6\xc3\xb6t");
+  EXPECT_EQ(problems_of(std::nullopt, {"server.name=" + std::string(41, 'x')}),
+            (Lines{"server.name: must be 1 to 40 characters, none of them a control character"}));
+}
+
 TEST_F(ConfigFileTest, SaysWhyAFileCannotBeRead) {
   EXPECT_EQ(message_of("/nowhere/x.toml"), "cannot read config /nowhere/x.toml: No such file or directory");
   EXPECT_EQ(message_of("/tmp"), "cannot read config /tmp: is a directory");

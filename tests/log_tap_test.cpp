@@ -23,6 +23,9 @@ TEST(LogTap, HandsOnWhatIsLoggedWhileItLives) {
   }
   spdlog::warn("too late");
   spdlog::set_default_logger(before);
+  const std::vector<LogLine> recent = ports.recent_log.all();
+  ASSERT_EQ(recent.size(), 2U);
+  EXPECT_EQ(recent[1].text, "the end");
   const auto first = ports.log.try_pop(), second = ports.log.try_pop();
   ASSERT_TRUE(first && second);
   EXPECT_EQ(first->text, "one and 2");

@@ -31,6 +31,7 @@ DriveOutput DriveControl::step(Time now, const DriveInputs& in) {
   safety_.driven(now, out.applied, out.power, in.imu);
   log(now, decision.worst);
   out.verdict = decision.worst.verdict;
+  out.cause = decision.worst.cause;
   out.battery = battery_.shown();
   return out;
 }

@@ -32,6 +32,7 @@ struct DriveInputs {
 struct DriveOutput {
   WheelPower power;  ///< for Motors::drive()
   Verdict verdict;
+  Cause cause = Cause::kNone;    ///< of the verdict
   Twist applied;                 ///< what that power drives
   BatteryState battery;          ///< as shown
   bool battery_changed = false;  ///< since the last tick: worth telling

@@ -56,7 +56,7 @@ void ControlStage::turn() {
     answered_ = *command;
     answered_at_ = clock_.now();
   }
-  ports_.drive.put({now, command, answered_at_, out.verdict, out.applied, out.power, out.battery});
+  ports_.drive.put(drive_state(now, out));
   if (now >= counters_due_) {
     counters_due_ = now + kShowCountersEvery;
     ports_.drive_counters.put(control_.refused());
@@ -64,6 +64,14 @@ void ControlStage::turn() {
   due_ = std::max(due_ + kTick, now);  // ticks that were missed are not made up for
   if (const auto deadline = control_.deadline(); deadline && *deadline > now)
     due_ = std::min(due_, *deadline);
+}
+
+DriveState ControlStage::drive_state(Time now, const DriveOutput& out) {
+  DriveState state{now, inputs_.command, answered_at_, out.verdict, out.applied, out.power, out.battery};
+  state.cause = out.cause;
+  state.attitude = attitude_.update(now, inputs_.imu);
+  if (inputs_.pins) state.collision = inputs_.pins->value.bumper_pressed;
+  return state;
 }
 
 void ControlStage::halt() {

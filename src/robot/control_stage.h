@@ -5,6 +5,7 @@
 
 #include "device/devices.h"
 #include "drive/drive_control.h"
+#include "robot/attitude_track.h"
 #include "robot/ports.h"
 
 namespace dynslam {
@@ -33,6 +34,7 @@ class ControlStage {
   void read_motors(Time now);
   void read_pins(Time now);
   void drive(const WheelPower& power);
+  DriveState drive_state(Time now, const DriveOutput& out);
   void note_trouble(DeviceHealth& health, Latest<DeviceHealth>& shown, const std::string& trouble);
   void note_answer(DeviceHealth& health, Latest<DeviceHealth>& shown, Time now);
 
@@ -43,6 +45,7 @@ class ControlStage {
   const Latest<ImuSample>& imu_;
   DriveControl control_;
   DriveInputs inputs_;
+  AttitudeTrack attitude_;
   DriveCommand answered_;
   Time answered_at_;
   Time due_, motors_due_, counters_due_;

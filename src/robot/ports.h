@@ -8,7 +8,9 @@
 #include <optional>
 #include <string>
 
+#include "base/attitude.h"
 #include "base/battery_state.h"
+#include "base/cause.h"
 #include "base/counters.h"
 #include "base/drive_command.h"
 #include "base/jpeg_frame.h"
@@ -19,6 +21,8 @@
 #include "grid/world_state.h"
 #include "pipe/bounded_queue.h"
 #include "pipe/latest.h"
+#include "pipe/recent.h"
+#include "robot/graph_view.h"
 
 namespace dynslam {
 
@@ -40,6 +44,9 @@ struct DriveState {
   Twist applied;
   WheelPower power;
   BatteryState battery;
+  Cause cause = Cause::kNone;             ///< of the verdict
+  std::optional<Attitude> attitude = {};  ///< nothing while no IMU tells it
+  std::optional<bool> collision = {};     ///< a bumper is pressed; nothing when there are none
 };
 
 /// Whether what happens is to be recorded; newest wins.
@@ -68,13 +75,18 @@ struct Ports {
       false};                    ///< a person clears latched stops; a stop asked for at the same time wins
   std::atomic<int> watchers{0};  ///< of the video: the camera runs while there are any
   Latest<RecordingWish> recording_wish;
-  BoundedQueue<LogLine> log{256};  ///< for recordings; one that begins has the lines before it too
+  BoundedQueue<LogLine> log{256};   ///< for recordings; one that begins has the lines before it too
+  Recent<LogLine> recent_log{200};  ///< the same, for people
+  /// A ray is believed this far (see SlamConfig); SLAM goes by it from the next scan on. At first, what the
+  /// robot was made with.
+  std::atomic<double> trusted_range_m{0.0};
 
   // From the robot.
   Latest<WorldState> world;
   Latest<Scan> scan;
   Latest<DriveState> drive;
   Latest<JpegFrame> video;
+  Latest<GraphView> graph;  ///< after each local map that was worked off
   Latest<Counters> slam_counters, graph_counters, drive_counters;  ///< about once a second
   Latest<RecordingState> recording;
   Latest<DeviceHealth> lidar_health, imu_health, motors_health, camera_health, pins_health;

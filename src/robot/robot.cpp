@@ -108,7 +108,7 @@ void Robot::control_turn() {
 }
 
 void Robot::take(const ScanResult& r) {
-  recorder_.add(PoseFix{{r.stamp, r.map_T_robot, r.covariance, r.quality, r.lost}, r.map_T_odom});
+  recorder_.add(PoseFix{{r.stamp, r.map_T_robot, r.covariance, r.quality, r.lost, r.unsteady}, r.map_T_odom});
   if (notice_) notice_(r);
 }
 

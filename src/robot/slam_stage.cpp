@@ -18,6 +18,7 @@ void SlamStage::turn() {
   while (auto sample = imu_.try_pop()) slam_.add(*sample);
   if (scan) slam_.add(Scan(**scan));
   while (auto correction = corrections_.try_pop()) slam_.correct(std::move(*correction));
+  slam_.trust_range(ports_.trusted_range_m);
   while (!closed_) {
     const auto result = slam_.next();
     if (!result) return;
@@ -31,6 +32,7 @@ void SlamStage::graph_turn() {
   if (!job) return;
   corrections_.push(slam_.work_off(*job));
   ports_.graph_counters.put(slam_.graph_counters());
+  ports_.graph.put(graph_view(slam_.back_end()));
 }
 
 void SlamStage::close() {
@@ -64,7 +66,7 @@ Counters SlamStage::queue_counters() const {
 
 void SlamStage::show(const ScanResult& r) {
   ports_.world.put(
-      {{r.stamp, r.map_T_robot, r.covariance, r.quality, r.lost}, slam_.global_map().snapshot()});
+      {{r.stamp, r.map_T_robot, r.covariance, r.quality, r.lost, r.unsteady}, slam_.global_map().snapshot()});
   if (r.stamp >= counters_due_ || r.stamp + kShowCountersEvery < counters_due_) {
     counters_due_ = r.stamp + kShowCountersEvery;
     Counters all = queue_counters();

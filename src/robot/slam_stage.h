@@ -20,7 +20,9 @@ class SlamStage {
   /// Told of each scan that was worked off.
   using Notice = std::function<void(const ScanResult&)>;
 
-  SlamStage(Slam& slam, Ports& ports, const Clock& clock) : slam_(slam), ports_(ports), clock_(clock) {}
+  SlamStage(Slam& slam, Ports& ports, const Clock& clock) : slam_(slam), ports_(ports), clock_(clock) {
+    ports.trusted_range_m = slam.trusted_range_m();
+  }
 
   void add(ImuSample sample) { imu_.push(std::move(sample)); }
   void add(std::shared_ptr<const Scan> scan) { scans_.push(std::move(scan)); }

@@ -72,6 +72,8 @@ void Api::add_to(RouteTable& routes) {
   add(routes, "GET", "/api/v1/devices", Role::kViewer, &Api::devices);
   add(routes, "GET", "/api/v1/config", Role::kViewer, &Api::config);
   add(routes, "GET", "/api/v1/worlds", Role::kViewer, &Api::worlds);
+  add(routes, "GET", "/api/v1/graph", Role::kViewer, &Api::graph);
+  add(routes, "GET", "/api/v1/log", Role::kViewer, &Api::log);
   add(routes, "GET", "/api/v1/map.png", Role::kViewer, &Api::map_png);
   add(routes, "GET", "/api/v1/map.pgm", Role::kViewer, &Api::map_pgm);
   add(routes, "GET", "/api/v1/map.yaml", Role::kViewer, &Api::map_yaml);
@@ -131,6 +133,10 @@ HttpAnswer Api::worlds(const HttpRequest&, const Visitor&) {
   if (!facts_.world.empty()) answer["current"] = facts_.world;
   return with_json(answer);
 }
+
+HttpAnswer Api::graph(const HttpRequest&, const Visitor&) { return with_json(graph_json(ports_)); }
+
+HttpAnswer Api::log(const HttpRequest&, const Visitor&) { return with_json(log_json(ports_)); }
 
 HttpAnswer Api::map_png(const HttpRequest&, const Visitor&) {
   return with_type("image/png", to_png(trinary_map(map_of(ports_))));

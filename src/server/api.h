@@ -22,6 +22,8 @@ struct ServerFacts {
   std::string world;                ///< the one that is simulated; empty on a real robot
   std::string recordings;           ///< folder
   TwistLimits limits;
+  std::string name = {};                                             ///< of the robot
+  double trusted_range_least_m = 0.0, trusted_range_most_m = 100.0;  ///< for SLAM; the least is too little
 };
 
 /// Where the autopilot is joined; while a function is empty the robot has none.
@@ -55,6 +57,8 @@ class Api {
   HttpAnswer devices(const HttpRequest&, const Visitor&);
   HttpAnswer config(const HttpRequest&, const Visitor&);
   HttpAnswer worlds(const HttpRequest&, const Visitor&);
+  HttpAnswer graph(const HttpRequest&, const Visitor&);
+  HttpAnswer log(const HttpRequest&, const Visitor&);
   HttpAnswer map_png(const HttpRequest&, const Visitor&);
   HttpAnswer map_pgm(const HttpRequest&, const Visitor&);
   HttpAnswer map_yaml(const HttpRequest&, const Visitor&);

@@ -23,10 +23,17 @@ const nlohmann::json* BodyFields::take(const std::string& name) {
 }
 
 std::string BodyFields::text(const std::string& name) {
-  const nlohmann::json* value = take(name);
-  if (value != nullptr && value->is_string()) return value->get<std::string>();
+  if (body_.is_object() && body_.contains(name)) return text_if(name).value_or("");
   fail(422, name + " must be a text");
   return {};
+}
+
+std::optional<std::string> BodyFields::text_if(const std::string& name) {
+  const nlohmann::json* value = take(name);
+  if (value == nullptr) return std::nullopt;
+  if (value->is_string()) return value->get<std::string>();
+  fail(422, name + " must be a text");
+  return std::nullopt;
 }
 
 double BodyFields::number(const std::string& name) {

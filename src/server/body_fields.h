@@ -16,6 +16,7 @@ class BodyFields {
   explicit BodyFields(const HttpRequest& request);
 
   std::string text(const std::string& name);
+  std::optional<std::string> text_if(const std::string& name);
   double number(const std::string& name);
   std::optional<double> number_if(const std::string& name);
   /// REQUIRES: all fields were asked for. What is wrong, also when there is more in the body than was asked

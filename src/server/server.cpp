@@ -40,6 +40,7 @@ Server::Server(Ports& ports, const Clock& clock, Access& access, const ServerCon
       api_(ports, clock, gate_, wheel_, events_, facts, std::move(autopilot)),
       access_api_(access, gate_),
       recordings_api_(ports, gate_, facts.recordings),
+      settings_api_(ports, gate_, facts),
       state_feed_([this] { return api_.state_text(); }),
       map_feed_(ports, clock, new_map_id()),
       web_({config.bind, config.port, limits_of(config)}, handlers(access)) {
@@ -55,6 +56,7 @@ WebServer::Handlers Server::handlers(Access& access) {
   api_.add_to(routes_);
   access_api_.add_to(routes_);
   recordings_api_.add_to(routes_);
+  settings_api_.add_to(routes_);
   add_page(routes_, gate_);
   return {[this](const HttpRequest& request) { return routes_.answer(request); },
           [this](const HttpRequest& request) { return open(request); }, use_of};

@@ -11,6 +11,7 @@
 #include "server/feeds.h"
 #include "server/recordings_api.h"
 #include "server/server_config.h"
+#include "server/settings_api.h"
 #include "server/web_server.h"
 
 namespace dynslam {
@@ -40,6 +41,7 @@ class Server {
   Api api_;
   AccessApi access_api_;
   RecordingsApi recordings_api_;
+  SettingsApi settings_api_;
   StateFeed state_feed_;
   MapFeed map_feed_;
   RouteTable routes_;

@@ -17,10 +17,33 @@ double rounded(double value, double parts = 1e4) {
   return std::isfinite(value) ? std::round(value * parts) / parts : 0.0;
 }
 
+json place_json(const Pose2& pose) {
+  return {{"x_m", rounded(pose.x)}, {"y_m", rounded(pose.y)}, {"yaw_rad", rounded(pose.yaw)}};
+}
+
+/// Millimetres count here. What is not known at all is not told as exact.
+json covariance_json(const Eigen::Matrix3d& c) {
+  constexpr double kParts = 1e9, kUnknown = 1e6;
+  const auto variance = [](double v) { return std::isfinite(v) ? rounded(v, kParts) : kUnknown; };
+  return {{"xx_m2", variance(c(0, 0))},
+          {"xy_m2", rounded(c(0, 1), kParts)},
+          {"yy_m2", variance(c(1, 1))},
+          {"yaw_rad2", variance(c(2, 2))}};
+}
+
+json unsteady_json(Unsteady unsteady) {
+  if (unsteady == Unsteady::kNo) return nullptr;
+  return unsteady == Unsteady::kTurning ? "turning" : "tilting";
+}
+
 json pose_json(const PoseEstimate& p) {
-  return {{"t_s", rounded(seconds_of(p.stamp))}, {"x_m", rounded(p.map_T_robot.x)},
-          {"y_m", rounded(p.map_T_robot.y)},     {"yaw_rad", rounded(p.map_T_robot.yaw)},
-          {"quality", rounded(p.quality)},       {"lost", p.lost}};
+  json pose = place_json(p.map_T_robot);
+  pose.update({{"t_s", rounded(seconds_of(p.stamp))},
+               {"covariance", covariance_json(p.covariance)},
+               {"quality", rounded(p.quality)},
+               {"lost", p.lost},
+               {"unsteady", unsteady_json(p.unsteady)}});
+  return pose;
 }
 
 const char* to_string(BatteryLevel level) {
@@ -38,13 +61,36 @@ const char* to_string(BatteryLevel level) {
 }
 
 void add_drive(json& state, const DriveState& d) {
-  state["verdict"] = {{"motion", to_string(d.verdict.motion)}, {"reason", d.verdict.reason}};
+  state["verdict"] = {
+      {"motion", to_string(d.verdict.motion)}, {"cause", to_string(d.cause)}, {"reason", d.verdict.reason}};
   state["applied"] = {{"v_mps", rounded(d.applied.v_mps)}, {"w_radps", rounded(d.applied.w_radps)}};
   state["power"] = {{"left", rounded(d.power.left)}, {"right", rounded(d.power.right)}};
   state["battery"] = {{"voltage_v", rounded(d.battery.voltage_v, 100)},
                       {"share", rounded(d.battery.share, 1000)},
                       {"level", to_string(d.battery.level)},
                       {"brownout", d.battery.brownout}};
+  if (d.attitude) {
+    state["attitude"] = {{"roll_rad", rounded(d.attitude->roll_rad)},
+                         {"pitch_rad", rounded(d.attitude->pitch_rad)},
+                         {"yaw_radps", rounded(d.attitude->yaw_radps)}};
+  }
+  if (d.collision) state["collision"] = *d.collision;
+}
+
+const char* to_string(LogLevel level) {
+  switch (level) {
+    case LogLevel::kInfo:
+      return "info";
+    case LogLevel::kWarn:
+      return "warn";
+    case LogLevel::kError:
+      return "error";
+    case LogLevel::kFatal:
+      return "fatal";
+    case LogLevel::kDebug:
+      break;
+  }
+  return "debug";
 }
 
 json counters_json(const Counters& counters) {
@@ -90,6 +136,8 @@ json state_json(const Ports& ports, const StateExtras& extras) {
                 {"applied", nullptr},
                 {"power", nullptr},
                 {"battery", nullptr},
+                {"attitude", nullptr},
+                {"collision", nullptr},
                 {"scan", nullptr},
                 {"recording", nullptr},
                 {"driver", nullptr}};
@@ -106,6 +154,26 @@ json state_json(const Ports& ports, const StateExtras& extras) {
   state["recording"] = recording_json(ports);
   state["counters"] = counters_json(extras.counters);
   return state;
+}
+
+json graph_json(const Ports& ports) {
+  json maps = json::array(), closures = json::array();
+  if (const auto graph = ports.graph.get().value) {
+    for (const GraphNode& map : graph->local_maps) {
+      maps.push_back(place_json(map.map_T_node));
+      maps.back()["id"] = map.id;
+    }
+    for (const GraphView::Closure& c : graph->closures) closures.push_back({{"from", c.from}, {"to", c.to}});
+  }
+  return {{"local_maps", maps}, {"closures", closures}};
+}
+
+json log_json(const Ports& ports) {
+  json lines = json::array();
+  for (const LogLine& line : ports.recent_log.all())
+    lines.push_back(
+        {{"t_s", rounded(seconds_of(line.time))}, {"level", to_string(line.level)}, {"text", line.text}});
+  return {{"lines", lines}};
 }
 
 json recording_json(const Ports& ports) {

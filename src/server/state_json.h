@@ -28,6 +28,12 @@ struct StateExtras {
 /// The state as web/openapi.yaml describes it.
 nlohmann::json state_json(const Ports& ports, const StateExtras& extras);
 
+/// Where the local maps lie, and the closures.
+nlohmann::json graph_json(const Ports& ports);
+
+/// The last lines of the log.
+nlohmann::json log_json(const Ports& ports);
+
 /// What is recorded now; null before the recorder has said anything.
 nlohmann::json recording_json(const Ports& ports);
 

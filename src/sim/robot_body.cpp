@@ -72,7 +72,11 @@ void RobotBody::step(double dt_s, const Blocked& blocked) {
 void RobotBody::move(double dt_s, const Blocked& blocked) {
   since_contact_s_ += dt_s;
   const double sideways_m = twist_.w_radps * sideways_.step(dt_s, random_) * dt_s;
-  if (twist_ == Twist{}) return;
+  if (twist_ == Twist{}) {
+    if (pressed_to_ && !blocked(*pressed_to_)) pressed_to_.reset();  // it has gone away
+    return;
+  }
+  pressed_to_.reset();
   const double turned = twist_.w_radps * dt_s, ahead = twist_.v_mps * dt_s;
   const auto moved = [&](double m, double rad) {
     const Vector2 by = m * unit(rad / 2) + sideways_m * Vector2(0, 1);
@@ -83,6 +87,7 @@ void RobotBody::move(double dt_s, const Blocked& blocked) {
     if (blocked(next)) {
       if (since_contact_s_ > kFreeAgain_s) ++contacts_;
       since_contact_s_ = 0.0;
+      if (!pressed_to_) pressed_to_ = next;
       continue;
     }
     const Vector2 by = next.translation() - pose_.world_T_robot.translation();
@@ -130,6 +135,7 @@ void RobotBody::settle_on_floor(double dt_s) {
 
 void RobotBody::place(const Pose2& world_T_robot) {
   pose_ = {world_T_robot, 0.0, 0.0, 0.0};
+  pressed_to_.reset();
   twist_ = {};
   for (Side* side : {&left_, &right_}) side->rim_mps = side->ground_mps = 0.0;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -54,6 +55,8 @@ class RobotBody {
   double distance_m() const { return distance_m_; }
   /// How often it ran into something; pressing on is the same contact, until it got free for a moment.
   int contacts() const { return contacts_; }
+  /// Whether it touches what it ran into.
+  bool touches() const { return pressed_to_.has_value(); }
 
   static constexpr double kWheelBase_m = 0.13, kTrack_m = 0.19, kWheelRadius_m = 0.052;
   static constexpr double kTurningLoss = 1.6;  ///< the track behaves as if it were wider by this
@@ -85,6 +88,7 @@ class RobotBody {
   double distance_m_ = 0.0;
   int contacts_ = 0;
   double since_contact_s_ = 1e9;
+  std::optional<Pose2> pressed_to_;  ///< where it would be by now, were there not what it touches
 };
 
 }  // namespace dynslam

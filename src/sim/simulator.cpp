@@ -179,6 +179,7 @@ PinState Simulator::read_pins() {
   if (fault == FaultKind::kFrozen) return last_pins_;
   const bool is_late = fault == FaultKind::kDelayed && clock_.now() - estop_since_ < kFaultDelay;
   last_pins_.estop_pressed = is_late ? !estop_ : estop_;
+  last_pins_.bumper_pressed = life_.body().touches();
   return last_pins_;
 }
 

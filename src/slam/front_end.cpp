@@ -141,7 +141,8 @@ FrontEndResult FrontEnd::process(const Scan& scan) {
   enter("insert");
   note_match(fix);
   compare_sensors(fix, corrected.reference);
-  result.inserted = may_insert(scan, fix);
+  result.unsteady = unsteady(scan);
+  result.inserted = result.unsteady == Unsteady::kNo && may_insert(fix);
   motion_.fix(corrected.reference, fix.map_T_robot, fix.matched);
   // Before it may become complete and make room for the next.
   result.local_map_id = local_maps_.empty() ? next_id_ : local_maps_.front().id;
@@ -212,17 +213,24 @@ double FrontEnd::quality(const Fix& fix) const {
   return m.matched * as_usual * known * most;
 }
 
-/// Only what is known to be in its place is drawn, and no scan that was smeared by a fast turn.
-bool FrontEnd::may_insert(const Scan& scan, const Fix& fix) {
+/// No scan that was smeared by a fast turn is drawn.
+Unsteady FrontEnd::unsteady(const Scan& scan) {
   const bool takes_time = !scan.beams.empty() && scan.beams.back().time_s != scan.beams.front().time_s;
-  if (takes_time && std::abs(motion_.yaw_rate(reference_time(scan))) > config_.skip_yaw_rate_radps) {
+  if (!takes_time) return Unsteady::kNo;
+  const Time middle = reference_time(scan);
+  if (std::abs(motion_.yaw_rate(middle)) > config_.skip_yaw_rate_radps) {
     counters_.add("slam.scans_skipped_turning");
-    return false;
+    return Unsteady::kTurning;
   }
-  if (takes_time && motion_.imu().tilt_rate(reference_time(scan)) > config_.skip_tilt_rate_radps) {
+  if (motion_.imu().tilt_rate(middle) > config_.skip_tilt_rate_radps) {
     counters_.add("slam.scans_skipped_tilting");
-    return false;
+    return Unsteady::kTilting;
   }
+  return Unsteady::kNo;
+}
+
+/// Only what is known to be in its place is drawn.
+bool FrontEnd::may_insert(const Fix& fix) const {
   return ((fix.matched && unproven_ == 0) || local_maps_.empty()) && !points_.empty();
 }
 

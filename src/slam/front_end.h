@@ -9,6 +9,7 @@
 #include "base/counters.h"
 #include "base/imu_sample.h"
 #include "base/odometry.h"
+#include "base/pose_estimate.h"
 #include "base/scan.h"
 #include "grid/chunked_grid.h"
 #include "grid/free_space.h"
@@ -34,6 +35,7 @@ struct FrontEndResult {
   bool lost = false;      ///< since the map no longer explained the scans, until found()
   bool matched = false;   ///< false: the map did not answer and the pose is what motion sensors say
   bool inserted = false;  ///< drawn into the local maps
+  Unsteady unsteady = Unsteady::kNo;  ///< and if not, whether the robot moved too fast for it
 };
 
 /// From sensor samples to poses and local maps (thesis, figure 4.2). Its frame is continuous: poses are never
@@ -50,6 +52,11 @@ class FrontEnd {
   void add(const ImuSample& sample);
   void add(const OdometrySample& sample);
   void add(Scan scan);
+
+  /// Takes the place of the config's trusted_range_m, from the next scan on. REQUIRES: more than min_range_m,
+  /// at most most_trusted_range_m().
+  void trust_range(double range_m) { config_.trusted_range_m = range_m; }
+  double trusted_range_m() const { return config_.trusted_range_m; }
 
   /// Works off the oldest scan that is ready. `at_end`: nothing more will come, do not wait for the IMU.
   /// A scan that is not later than the one before it is counted and passed over; a clock that was set back by
@@ -111,7 +118,8 @@ class FrontEnd {
   double through_walls(const MatchResult& match, const CorrectedScan& scan) const;
   void compare_sensors(const Fix& fix, Time t);
   void note_match(const Fix& fix);
-  bool may_insert(const Scan& scan, const Fix& fix);
+  Unsteady unsteady(const Scan& scan);
+  bool may_insert(const Fix& fix) const;
   double quality(const Fix& fix) const;
   void lose();
   void insert(CorrectedScan&& scan, const Pose2& map_T_robot);

@@ -39,6 +39,7 @@ std::optional<ScanResult> Slam::next(bool at_end) {
   result.matched = fix->matched;
   result.lost = fix->lost;
   result.inserted = fix->inserted;
+  result.unsteady = fix->unsteady;
   return result;
 }
 

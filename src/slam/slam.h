@@ -27,6 +27,7 @@ struct ScanResult {
   bool matched = false;   ///< false: the map did not answer and the pose is what motion sensors say
   bool lost = false;      ///< the robot does not know where in the map it is, until a place is known again
   bool inserted = false;  ///< drawn into the local maps
+  Unsteady unsteady = Unsteady::kNo;  ///< and if not, whether the robot moved too fast for it
 };
 
 struct StampedFix {
@@ -55,8 +56,8 @@ struct Correction {
 /// the back end had a thread of its own; so the same samples give the same results on every machine.
 ///
 /// For a robot that must not wait for its loops, see close_loops_elsewhere(): then one other thread may call
-/// work_off() at any time, and nothing else. back_end(), local_maps_active(), trajectory(), counters() and
-/// finish() are only for when it does not.
+/// work_off() at any time, and look at back_end() between two of them, and nothing else. local_maps_active(),
+/// trajectory(), counters() and finish(), and back_end() for others, are only for when it does not.
 class Slam {
  public:
   /// `watch`, when given, must outlive this. Throws InputError for a config with a problem().
@@ -76,6 +77,10 @@ class Slam {
   /// From now on trajectory() knows no more than the last so many scans (one at the least), and nothing is
   /// kept of what came before: for a robot that never stops. Otherwise all are kept, some 50 bytes a scan.
   void keep_path(std::size_t most_scans);
+
+  /// See FrontEnd.
+  void trust_range(double range_m) { front_end_.trust_range(range_m); }
+  double trusted_range_m() const { return front_end_.trusted_range_m(); }
 
   /// From now on next() leaves complete local maps to the caller: to be taken, worked off, and what came of
   /// them given back, all in order.

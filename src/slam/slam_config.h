@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -25,6 +26,9 @@ struct SlamConfig {
   /// Cells along a trusted ray: what a scan costs grows with its square.
   static constexpr int kMostCells = 4000;
 
+  static constexpr double kMostTrusted_m = 100.0;
+  double most_trusted_range_m() const { return std::min(kMostTrusted_m, kMostCells * cell_size_m); }
+
   /// What is wrong with the values together, if anything.
   std::optional<std::string> problem() const {
     if (trusted_range_m > kMostCells * cell_size_m)
@@ -36,9 +40,10 @@ struct SlamConfig {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit(Field{"cell_size_m", "side of a map cell", 0.005, 0.5}, self.cell_size_m);
-    visit(Field{"trusted_range_m",
-                "a ray is believed this far: beyond, neither hits nor free space are taken", 0.5, 100.0},
-          self.trusted_range_m);
+    visit(
+        Field{"trusted_range_m", "a ray is believed this far: beyond, neither hits nor free space are taken",
+              0.5, kMostTrusted_m},
+        self.trusted_range_m);
     visit(Field{"min_range_m", "nearer returns are the robot itself", 0.0, 5.0}, self.min_range_m);
     visit(Field{"skip_yaw_rate_radps", "scans taken while turning faster are matched but not drawn", 0.1,
                 100.0},

@@ -224,9 +224,9 @@ TEST(DriveControl, SlowingDownIsOneTransitionThoughEachScanGivesALittleWay) {
 TEST(DriveControl, ListsTransitionsOnceEach) {
   Drive d;
   d.run(1.0, kStand);
-  d.run(1.0, kForward);
+  EXPECT_EQ(d.run(1.0, kForward).cause, Cause::kNone);
   d.in.stop_asked = "from the page";
-  d.run(0.5, kForward);
+  EXPECT_EQ(d.run(0.5, kForward).cause, Cause::kStopAsked);
   std::vector<std::string> reasons;
   for (const auto& t : d.control.transitions()) reasons.push_back(t.verdict.reason);
   EXPECT_THAT(reasons, testing::ElementsAre("waiting for the connection to the driver to be steady", "",

@@ -10,6 +10,7 @@
 #include "pipe/bounded_queue.h"
 #include "pipe/clock.h"
 #include "pipe/latest.h"
+#include "pipe/recent.h"
 
 namespace dynslam {
 namespace {
@@ -66,6 +67,14 @@ TEST(Latest, VersionsAreNeverSeenGoingBack) {
     ASSERT_EQ(*item.value, item.version);
     seen = item.version;
   }
+}
+
+TEST(Recent, KeepsTheLastOnesHoweverOftenTheyAreLookedAt) {
+  Recent<int> recent(3);
+  EXPECT_TRUE(recent.all().empty());
+  for (int i = 1; i <= 5; ++i) recent.push(i);
+  EXPECT_EQ(recent.all(), (std::vector<int>{3, 4, 5}));
+  EXPECT_EQ(recent.all(), (std::vector<int>{3, 4, 5}));
 }
 
 TEST(BoundedQueue, DropsTheOldestAndCountsIt) {

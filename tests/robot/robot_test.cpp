@@ -285,6 +285,38 @@ TEST(Robot, TheRestGoesOnWhenEverythingFailsTogether) {
   EXPECT_TRUE(r.robot.ports().lidar_health.get().value->trouble.empty());
 }
 
+TEST(Robot, TellsHowItStandsAndTurns) {
+  SteppedRobot r;
+  r.stand();
+  ASSERT_TRUE(r.drive().attitude);
+  EXPECT_NEAR(r.drive().attitude->yaw_radps, 0.0, 0.05);
+  EXPECT_NEAR(r.drive().attitude->pitch_rad, 0.0, 0.05);
+  EXPECT_EQ(r.drive().cause, Cause::kNone);
+  EXPECT_EQ(r.drive().collision, false);
+  r.go_on(2.0, Twist{0.0, 0.8});
+  EXPECT_NEAR(r.drive().attitude->yaw_radps, r.sim.simulator->truth().twist.w_radps, 0.2);
+  r.sim.simulator->set_fault(SimDevice::kImu, FaultKind::kUnplugged);
+  r.go_on(1.5, Twist{});
+  EXPECT_FALSE(r.drive().attitude);
+  EXPECT_EQ(r.drive().cause, Cause::kImu);
+}
+
+TEST(Robot, TrustsRaysAsFarAsItIsTold) {
+  const auto wall_ahead = [](double trusted_m) {
+    SteppedRobot r;
+    EXPECT_EQ(r.robot.ports().trusted_range_m, SlamConfig{}.trusted_range_m);
+    r.robot.ports().trusted_range_m = trusted_m;
+    r.stand();
+    const GridSnapshot map = r.robot.ports().world.get().value->map;
+    bool found = false;
+    for (double x = 5.9; x < 6.1; x += 0.01)
+      found = found || map.state(cell_at({x, 0.0}, map.cell_size_m())) == CellState::kOccupied;
+    return found;
+  };
+  EXPECT_TRUE(wall_ahead(12.0));
+  EXPECT_FALSE(wall_ahead(4.0));
+}
+
 TEST(Robot, TheEStopPinIsLatched) {
   SteppedRobot r;
   r.stand();
@@ -470,6 +502,15 @@ TEST(LiveRobot, LoopsAreClosedInAThreadOfTheirOwn) {
   EXPECT_GE(way_m, 20.0);
   EXPECT_GT(robot.slam().back_end().loops().closures(), 0U);
   EXPECT_EQ(robot.counters()["queue.local_maps_dropped"], 0U);
+  const auto graph = robot.ports().graph.get().value;
+  ASSERT_TRUE(graph);
+  EXPECT_FALSE(graph->local_maps.empty());
+  EXPECT_FALSE(graph->closures.empty());
+  for (const GraphView::Closure& c : graph->closures) {
+    for (const std::uint32_t id : {c.from, c.to})
+      EXPECT_TRUE(std::any_of(graph->local_maps.begin(), graph->local_maps.end(),
+                              [&](const GraphNode& map) { return map.id == id; }));
+  }
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "server/api.h"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -28,7 +30,7 @@ class ApiTest : public testing::Test {
  protected:
   explicit ApiTest(AutopilotPort autopilot = {})
       : api(ports, clock, gate, wheel, events,
-            {"1.2.3", R"({"slam":{"cell_size_m":0.02}})", {"flat", "hall"}, "flat", {}, {}},
+            {"1.2.3", R"({"slam":{"cell_size_m":0.02}})", {"flat", "hall"}, "flat", {}, {}, {}},
             std::move(autopilot)) {
     api.add_to(routes);
   }
@@ -76,6 +78,8 @@ TEST_F(ApiTest, AsksTheGateForEachRequest) {
       {"GET", "/api/v1/devices", Role::kViewer},
       {"GET", "/api/v1/config", Role::kViewer},
       {"GET", "/api/v1/worlds", Role::kViewer},
+      {"GET", "/api/v1/graph", Role::kViewer},
+      {"GET", "/api/v1/log", Role::kViewer},
       {"GET", "/api/v1/map.png", Role::kViewer},
       {"GET", "/api/v1/map.pgm", Role::kViewer},
       {"GET", "/api/v1/map.yaml", Role::kViewer},
@@ -167,7 +171,8 @@ TEST_F(WithAutopilot, GoalsAndModesReachIt) {
 
 TEST_F(ApiTest, StateIsWholeFromTheBeginning) {
   const json empty = json::parse(ask("GET", "/api/v1/state").body);
-  for (const char* part : {"pose", "verdict", "scan", "battery", "driver", "recording"})
+  for (const char* part :
+       {"pose", "verdict", "scan", "battery", "attitude", "collision", "driver", "recording"})
     EXPECT_TRUE(empty.at(part).is_null()) << part;
   draw_map();
   DriveState drive;
@@ -185,6 +190,54 @@ TEST_F(ApiTest, StateIsWholeFromTheBeginning) {
   EXPECT_EQ(state["scan"]["ranges_cm"][0], 50) << "the nearer one";
   EXPECT_EQ(state["scan"]["ranges_cm"][90], 200);
   EXPECT_EQ(state["scan"]["ranges_cm"][180], 0);
+}
+
+TEST_F(ApiTest, StateSaysHowSureThePoseIsAndWhatMovesTheRobot) {
+  WorldState world;
+  world.pose.covariance << 1.5e-6, -2e-7, 0, -2e-7, 3e-6, 0, 0, 0, std::nan("");
+  world.pose.unsteady = Unsteady::kTilting;
+  ports.world.put(world);
+  DriveState drive;
+  drive.verdict = {Motion::kStop, "tilted"};
+  drive.cause = Cause::kTilt;
+  drive.attitude = Attitude{0.5, -0.25, 1.0};
+  drive.collision = true;
+  ports.drive.put(drive);
+  const json state = json::parse(ask("GET", "/api/v1/state").body);
+  EXPECT_EQ(state["pose"]["covariance"],
+            (json{{"xx_m2", 1.5e-6}, {"xy_m2", -2e-7}, {"yy_m2", 3e-6}, {"yaw_rad2", 1e6}}));
+  EXPECT_EQ(state["pose"]["unsteady"], "tilting");
+  EXPECT_EQ(state["verdict"]["cause"], "tilt");
+  EXPECT_EQ(state["attitude"], (json{{"roll_rad", 0.5}, {"pitch_rad", -0.25}, {"yaw_radps", 1.0}}));
+  EXPECT_EQ(state["collision"], true);
+}
+
+TEST(Cause, HasTheWordsOfTheContract) {
+  EXPECT_STREQ(to_string(Cause::kNone), "none");
+  EXPECT_STREQ(to_string(Cause::kPinsSilent), "pins");
+  EXPECT_STREQ(to_string(Cause::kMotorFault), "motor-fault");
+  EXPECT_STREQ(to_string(Cause::kDriver), "driver");
+  EXPECT_STREQ(to_string(Cause::kBattery), "battery");
+}
+
+TEST_F(ApiTest, DrawsTheGraph) {
+  EXPECT_EQ(json::parse(ask("GET", "/api/v1/graph").body),
+            (json{{"local_maps", json::array()}, {"closures", json::array()}}));
+  ports.graph.put(GraphView{{{3, {1.0, 2.0, 0.5}}, {7, {1.5, 2.0, 0.0}}}, {{3, 7}}});
+  const json graph = json::parse(ask("GET", "/api/v1/graph").body);
+  ASSERT_EQ(graph["local_maps"].size(), 2U);
+  EXPECT_EQ(graph["local_maps"][0], (json{{"id", 3}, {"x_m", 1.0}, {"y_m", 2.0}, {"yaw_rad", 0.5}}));
+  EXPECT_EQ(graph["closures"], (json::array({{{"from", 3}, {"to", 7}}})));
+}
+
+TEST_F(ApiTest, TellsTheLastLinesOfTheLog) {
+  EXPECT_EQ(json::parse(ask("GET", "/api/v1/log").body), (json{{"lines", json::array()}}));
+  for (int i = 0; i < 300; ++i) ports.recent_log.push({time_at_s(i), LogLevel::kInfo, std::to_string(i)});
+  ports.recent_log.push({time_at_s(300), LogLevel::kFatal, "\xff is no UTF-8"});
+  const json lines = json::parse(ask("GET", "/api/v1/log").body)["lines"];
+  ASSERT_EQ(lines.size(), 200U);
+  EXPECT_EQ(lines[0], (json{{"t_s", 101.0}, {"level", "info"}, {"text", "101"}}));
+  EXPECT_EQ(lines[199]["level"], "fatal");
 }
 
 TEST(CoarseRanges, AreSeenFromTheRobotAndLeaveOutWhatIsNone) {

@@ -19,6 +19,11 @@ void change(ChunkedGrid& grid, std::int32_t x, std::int32_t y, int looks = 3) {
   for (int i = 0; i < looks; ++i) grid.add_hit(in_chunk(x, y));
 }
 
+/// Draws a piece of wall into a chunk, in one of its columns.
+void build(ChunkedGrid& grid, std::int32_t x, std::int32_t y, int column) {
+  for (int i = 0; i < 3 * MapVersions::kManyCells; ++i) grid.add_hit({64 * x + column, 64 * y + 10 + i / 3});
+}
+
 class MapDeliveryTest : public testing::Test {
  protected:
   MapDeliveryTest() {
@@ -51,8 +56,8 @@ TEST_F(MapDeliveryTest, WhatIsFarGetsItsTurnThoughTheNearChangesAlways) {
   std::set<ChunkIndex> all;
   for (int turn = 0; turn < 13; ++turn) {
     for (const ChunkIndex c : next(delivery, {0, 0}, 2)) all.insert(c);
-    change(grid, 0, 0, 1);
-    versions.update(grid.snapshot(), time_at_s(2 + turn));
+    build(grid, 0, 0, 10 + turn);
+    versions.update(grid.snapshot(), time_at_s(1.1 + 0.1 * turn));
   }
   EXPECT_EQ(all.size(), 25U);
 }
@@ -67,14 +72,42 @@ TEST_F(MapDeliveryTest, AClientGoesOnFromWhatItHas) {
 }
 
 TEST_F(MapDeliveryTest, OnlyWhatCanBeSeenCountsAsAChange) {
-  change(grid, 1, 0, 20);
-  versions.update(grid.snapshot(), time_at_s(2));
+  change(grid, 1, 0, 2);
+  versions.update(grid.snapshot(), time_at_s(9));
   const auto before = versions.chunks().at({1, 0});
-  change(grid, 1, 0, 5);  // it cannot be surer
-  versions.update(grid.snapshot(), time_at_s(3));
+  EXPECT_EQ(before.version, 2U) << "it is sure now";
+  change(grid, 1, 0, 5);  // a little surer
+  versions.update(grid.snapshot(), time_at_s(20));
   EXPECT_EQ(versions.chunks().at({1, 0}).version, before.version);
-  EXPECT_EQ(versions.chunks().at({1, 0}).changed, time_at_s(2));
+  EXPECT_EQ(versions.chunks().at({1, 0}).changed, time_at_s(9));
   EXPECT_GT(versions.chunks().at({1, 0}).grid_version, before.grid_version);
+}
+
+TEST_F(MapDeliveryTest, ManyCellsCountAtOnceAndFewAfterAWhile) {
+  const auto version_at = [&](double t_s) {
+    versions.update(grid.snapshot(), time_at_s(t_s));
+    return versions.chunks().at({0, 0}).version;
+  };
+  build(grid, 0, 0, 20);
+  EXPECT_EQ(version_at(1.1), 2U);
+  for (int i = 0; i < 3; ++i) grid.add_hit({40, 40});
+  EXPECT_EQ(version_at(1.2), 2U);
+  EXPECT_EQ(version_at(3.0), 2U);
+  EXPECT_EQ(version_at(3.2), 3U) << "though the grid is as it was";
+  EXPECT_EQ(version_at(9.0), 3U);
+}
+
+TEST_F(MapDeliveryTest, ACellThatGoesToAndFroIsNoChange) {
+  const auto version_at = [&](double t_s) {
+    versions.update(grid.snapshot(), time_at_s(t_s));
+    return versions.chunks().at({0, 0}).version;
+  };
+  for (int i = 0; i < 2; ++i) grid.add_miss({40, 40});
+  EXPECT_EQ(version_at(5.0), 2U) << "free";
+  for (int i = 0; i < 2; ++i) grid.add_hit({40, 40});
+  EXPECT_EQ(version_at(5.1), 2U) << "occupied for a moment";
+  grid.add_miss({40, 40});
+  EXPECT_EQ(version_at(9.0), 2U) << "free";
 }
 
 TEST(MapFeed, TellsEachClientWhatItLacksAndThenThatItHasAll) {

@@ -81,6 +81,26 @@ TEST(RobotBody, StopsAtAWallAndCountsOneContact) {
   EXPECT_EQ(body.contacts(), 2);
 }
 
+TEST(RobotBody, TouchesWhatItRanIntoUntilEitherGoesAway) {
+  RobotBody body(bare_room(), 1);
+  double wall_x = 3.0;
+  const RobotBody::Blocked beyond = [&](const Pose2& p) { return p.x > wall_x; };
+  run(body, {0.5, 0.5}, 0.5, beyond);
+  EXPECT_FALSE(body.touches());
+  run(body, {0.5, 0.5}, 3.0, beyond);
+  EXPECT_TRUE(body.touches());
+  run(body, {0, 0}, 2.0, beyond);
+  EXPECT_TRUE(body.touches()) << "it stands at the wall";
+  run(body, {-0.3, -0.3}, 0.5, beyond);
+  EXPECT_FALSE(body.touches());
+  run(body, {0.5, 0.5}, 2.0, beyond);
+  run(body, {0, 0}, 1.0, beyond);
+  EXPECT_TRUE(body.touches());
+  wall_x = 4.0;
+  run(body, {0, 0}, 0.1, beyond);
+  EXPECT_FALSE(body.touches()) << "what it touched went away";
+}
+
 TEST(RobotBody, NoseGoesUpThenDownOverADoorstep) {
   World world = bare_room();
   world.doorsteps.push_back({{3.0, 2.0}, {3.0, 4.0}, 0.04, 0.008});

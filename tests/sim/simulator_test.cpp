@@ -211,6 +211,15 @@ TEST(SimPins, ShowTheEmergencyStop) {
   EXPECT_FALSE(sim.devices.pins->read().estop_pressed);
 }
 
+TEST(SimPins, TellOfABump) {
+  SteppedSim sim(bare_room());
+  EXPECT_EQ(sim.devices.pins->read().bumper_pressed, false);
+  sim.drive({0.5, 0.5}, 0.0, 9.0);
+  EXPECT_EQ(sim.devices.pins->read().bumper_pressed, true);
+  sim.drive({-0.3, -0.3}, 9.0, 10.0);
+  EXPECT_EQ(sim.devices.pins->read().bumper_pressed, false);
+}
+
 /// All that one run tells, with questions asked every so often. Commands fall on multiples of 50 ms.
 std::vector<double> told(Duration step, std::uint64_t seed) {
   World world = bare_room();

@@ -482,7 +482,10 @@ TEST(Slam, SkipsScansTakenInAFastTurn) {
   for (int i = 1; i < 8; ++i)
     slam.add(look(two_rooms(), time_at_s(0.1 * i), turning, {.beams = 400}, random));
   int inserted = 0, seen = 0;
-  while (auto r = slam.next(true)) inserted += r->inserted ? 1 : 0, ++seen;
+  while (auto r = slam.next(true)) {
+    inserted += r->inserted ? 1 : 0, ++seen;
+    EXPECT_EQ(r->unsteady, Unsteady::kTurning);
+  }
   EXPECT_EQ(seen, 7);
   EXPECT_EQ(inserted, 0);
   EXPECT_EQ(slam.counters()["slam.scans_skipped_turning"], 7U);

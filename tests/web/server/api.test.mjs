@@ -77,6 +77,22 @@ test("whatever the contract does not take for a body is refused, and the rest is
   assert.equal((await robot.json("/api/v1/state")).power_limit, 0.5);
 });
 
+test("settings hold from when they are changed; what the contract does not take is refused", async () => {
+  const path = "/api/v1/settings";
+  const before = await ask("get", path);
+  const bodies = [{}, { name: "Röt 🤖" }, { name: "" }, { name: "x".repeat(41) }, { name: "🤖".repeat(40) }, { name: 1 }, { trusted_range_m: 6 },
+    { trusted_range_m: 0 }, { trusted_range_m: "6" }, { name: "new", more: 1 }];
+  for (const body of bodies) {
+    const answer = await robot.fetch(path, { method: "PATCH", headers: { "content-type": "application/json" }, body: JSON.stringify(body) });
+    assert.equal(answer.status === 422, !takesBody("patch", path, body), `${JSON.stringify(body)} ${answer.status}`);
+    await checkAnswer("patch", path, answer);
+  }
+  await ask("patch", path, { trusted_range_m: before.trusted_range_most_m + 1 });
+  await ask("patch", path, { name: "a\nb" });
+  assert.deepEqual(await ask("get", path), { ...before, name: "🤖".repeat(40), trusted_range_m: 6 });
+  assert.deepEqual(await ask("patch", path, { name: before.name, trusted_range_m: before.trusted_range_m }), before);
+});
+
 test("bodies that are no JSON are refused in words", async () => {
   for (const [type, body, status] of [["application/json", "{", 400], ["application/json", '{"x_m":NaN}', 400],
     ["application/json", "[]", 400], ["text/plain", "{}", 415], ["application/json", "x".repeat(17000), 413]]) {
@@ -86,10 +102,27 @@ test("bodies that are no JSON are refused in words", async () => {
   }
 });
 
+test("the graph grows as the robot goes, and the state says how it stands", async () => {
+  const tour = await Robot.start("--mission", "tour", "--speed", "4", "--seed", "3");
+  const graph = await until(async () => {
+    const answer = await tour.fetch("/api/v1/graph");
+    const body = await checkAnswer("get", "/api/v1/graph", answer);
+    return body.local_maps.length > 1 && body;
+  }, "two local maps", 60000);
+  for (const { x_m, y_m } of graph.local_maps) assert.ok(Math.hypot(x_m, y_m) < 50);
+  const { pose, attitude, collision, verdict } = await tour.json("/api/v1/state");
+  assert.ok(pose.covariance.xx_m2 > 0 && pose.covariance.xx_m2 < 1, JSON.stringify(pose));
+  assert.ok(Math.abs(attitude.roll_rad) < 0.3 && Math.abs(attitude.pitch_rad) < 0.3);
+  assert.equal(typeof collision, "boolean");
+  assert.equal(verdict.cause === "none", verdict.motion === "go");
+  await tour.stop();
+});
+
 test("STOP needs nothing, is latched, and can be cleared", async () => {
   const raw = await robot.rawAnswer(`POST /api/v1/stop HTTP/1.1\r\nHost: ${robot.host}\r\n\r\n`);
   assert.match(raw, /^HTTP\/1.1 204/);
   await until(async () => (await robot.json("/api/v1/state")).verdict.motion === "e-stop", "the stop");
+  assert.equal((await robot.json("/api/v1/state")).verdict.cause, "stop");
   assert.equal(await ask("post", "/api/v1/clear_stop"), undefined);
   await until(async () => (await robot.json("/api/v1/state")).verdict.motion !== "e-stop", "the stop to be cleared");
 });
@@ -101,7 +134,7 @@ test("what is not there is 404, and what cannot be done with it 405", async () =
     assert.ok((await answer.json()).error);
   }
   for (const [, path] of operations.filter(([, p]) => !p.includes("{"))) {
-    const answer = await robot.fetch(path, { method: "PATCH" });
+    const answer = await robot.fetch(path, { method: "PUT" });
     assert.equal(answer.status, 405, path);
     assert.ok(answer.headers.get("allow").length > 2);
   }

@@ -23,7 +23,7 @@ export const checkSchema = (name, value) => check(pointer("components", "schemas
 
 /** All operations: [method, path, operation]. */
 export const operations = Object.entries(contract.paths).flatMap(([path, methods]) =>
-  Object.entries(methods).filter(([m]) => ["get", "post", "delete", "put"].includes(m))
+  Object.entries(methods).filter(([m]) => ["get", "post", "delete", "put", "patch"].includes(m))
     .map(([method, operation]) => [method, path, operation]));
 
 /** Whether the contract takes this for the body of a request. */
