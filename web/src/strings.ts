@@ -118,7 +118,7 @@ export const strings = {
       age: "Age",
     },
     places: { frontier: "Frontier", unvisited: "Not visited", old: "Seen long ago" },
-    ages: ["Under a minute old", "Minutes", "Over 5 minutes", "Over 30 minutes"],
+    ages: ["Under a minute old", "1 to 5 minutes", "Over 5 minutes", "Over 30 minutes"],
   },
   more: {
     list: "Parts of More",

@@ -12,11 +12,7 @@ export function GoalPanel() {
   if (draft.value) return <DraftPanel />;
   const goal = robot.state.value?.autopilot?.goal;
   if (!goal) return tool.value === "goal" ? <p class="map-panel">{strings.map.tapGoal}</p> : null;
-  return (
-    <div class="map-panel">
-      <button type="button" onClick={resetGoal}>{strings.map.resetGoal}</button>
-    </div>
-  );
+  return <button type="button" class="map-reset" onClick={resetGoal}>{strings.map.resetGoal}</button>;
 }
 
 function DraftPanel() {

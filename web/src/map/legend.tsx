@@ -3,7 +3,7 @@ import { robot } from "../robot";
 import { strings } from "../strings";
 import { measure, scaleBar } from "./geometry";
 import { layers } from "./layers";
-import { inks } from "./look";
+import { inks, palette } from "./look";
 import { AGE_SHADES } from "./overlays/age_overlay";
 import { KINDS, markOf } from "./overlays/places_overlay";
 import { pixelsPerMetre } from "./scene";
@@ -39,7 +39,8 @@ export function Legend() {
       {layers.value.age && AGE_SHADES.map((shade, step) => (
         <li key={step}>
           <svg viewBox="0 0 18 18" aria-hidden="true">
-            <rect width="18" height="18" fill={inks.value.age} fill-opacity={shade} stroke="currentColor" />
+            <rect width="18" height="18" fill={floor()} stroke="currentColor" />
+            <rect width="18" height="18" fill={inks.value.age} fill-opacity={shade} />
             {step === AGE_SHADES.length - 1 && <path d="M0 9 9 0M0 18 18 0M9 18 18 9" stroke={inks.value.age} />}
           </svg>
           {strings.map.ages[step]}
@@ -47,4 +48,8 @@ export function Legend() {
       ))}
     </ul>
   );
+}
+
+function floor(): string {
+  return `#${palette.value.free[1].toString(16).padStart(6, "0")}`;
 }

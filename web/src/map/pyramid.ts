@@ -3,7 +3,7 @@
 import { CHUNK_SIDE } from "../link/wire";
 
 /** At the highest level, a cell stands for 2^TOP_LEVEL cells a side. */
-export const TOP_LEVEL = 7;
+export const TOP_LEVEL = 5;
 const HALF = CHUNK_SIDE / 2;
 
 /** A number for a place on a grid of +-32768. */

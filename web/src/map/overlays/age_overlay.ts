@@ -6,7 +6,7 @@ import { mapModel } from "../map_model";
 import type { Pen } from "./pen";
 
 /** How dark each step is; the last is hatched as well. */
-export const AGE_SHADES = [0, 0.14, 0.3, 0.42] as const;
+export const AGE_SHADES = [0, 0.18, 0.36, 0.5] as const;
 const HATCH_PX = 8;
 
 /** Shades the parts of the map by how long ago they changed. */
