@@ -124,7 +124,7 @@ export const strings = {
     list: "Parts of More",
     back: "‹ More",
     notThere: "This robot's program does not tell that yet.",
-    cancel: "Keep it as it is",
+    cancel: "Cancel",
     copy: "Copy",
     copied: "Copied.",
     notCopied: "This browser does not let the page copy. Select the text and copy it by hand.",
