@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 import { Banner } from "./ui/banner";
 import { DriveView } from "./drive/drive_view";
+import { IndicatorBar } from "./indicators/indicator_bar";
 import { MapView } from "./map/map_view";
 import { MoreView } from "./more/more_view";
 import { PairView } from "./more/pair_view";
@@ -31,6 +32,11 @@ function Views() {
     <main class="views">
       {view.value === "drive" && <DriveView />}
       <MapView shown={view.value === "map"} />
+      {view.value === "map" && (
+        <div class="over-map">
+          <IndicatorBar loudOnly />
+        </div>
+      )}
       {view.value === "more" && <MoreView />}
     </main>
   );

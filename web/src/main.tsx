@@ -2,6 +2,8 @@
 import { render } from "preact";
 import { App } from "./app";
 import { sitDown } from "./drive/cockpit";
+import { scanAge_ms } from "./drive/radar";
+import { videoAge_ms } from "./drive/video";
 import { robot } from "./robot";
 import { strings } from "./strings";
 import { tell } from "./ui/notices";
@@ -10,4 +12,6 @@ import "./style.css";
 robot.onTrouble = (why) => tell(why ?? strings.noAnswer);
 robot.start();
 sitDown();
+// For whoever looks from the browser's console, or measures.
+Object.assign(window, { dynslam: { robot, scanAge_ms, videoAge_ms } });
 render(<App />, document.getElementById("app")!);

@@ -63,7 +63,7 @@ export const chip = (page, id) => page.locator(`[data-indicator="${id}"]`);
 
 /** Until this page holds the wheel and the robot would obey it. */
 export async function ready(page, robot) {
-  await page.locator('[data-indicator="wheel"].chip-good').waitFor();
+  await page.waitForFunction(() => window.dynslam?.robot.wheel.value.mine);
   await until(async () => (await robot.json("/api/v1/state")).verdict?.motion === "go", "leave to drive");
 }
 

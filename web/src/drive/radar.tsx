@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { robot } from "../robot";
 import { strings } from "../strings";
+
+/** How old the newest scan was when it was drawn, milliseconds; null before there was one. */
+export const scanAge_ms = signal<number | null>(null);
 
 const NEAR_CM = 40;
 /** Half of the robot's length and width, metres, for its picture. */
@@ -84,7 +88,9 @@ export function Radar() {
         frame = 0;
         seq = scan.seq;
         const element = canvas.current;
-        if (element) draw(element, scan.ranges_cm, styleOf(element));
+        if (!element) return;
+        draw(element, scan.ranges_cm, styleOf(element));
+        scanAge_ms.value = robot.clock.age_ms(scan.t_s, performance.now());
       });
     });
     return () => {

@@ -29,12 +29,14 @@ function ask(id: string): void {
   forget = window.setTimeout(() => (asked.value = null), SAID_MS);
 }
 
-export function IndicatorBar() {
+/** All that say something, or only those that call for somebody. */
+export function IndicatorBar({ loudOnly = false }: { loudOnly?: boolean }) {
+  const chips = loudOnly ? shown.value.filter(({ level }) => level === "warn" || level === "bad") : shown.value;
   const about = shown.value.find((indicator) => indicator.id === asked.value)?.about;
   return (
     <div class="indicators">
       <ul>
-        {shown.value.map((indicator) => (
+        {chips.map((indicator) => (
           <li key={indicator.id}>
             <Chip {...indicator} />
           </li>

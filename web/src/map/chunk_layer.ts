@@ -30,8 +30,10 @@ export class ChunkLayer extends GridLayer {
   protected override createTile(coords: Coords, done: DoneCallback): HTMLElement {
     const canvas = document.createElement("canvas");
     canvas.width = canvas.height = 0;
+    const tile = tileAt(coords);
+    canvas.dataset.tile = `${tile.level}/${tile.x}/${tile.y}`; // to find it by
     let isDone = false;
-    this.watch.add(tileAt(coords), (picture) => {
+    this.watch.add(tile, (picture) => {
       drawTile(canvas, picture);
       if (!isDone) done(undefined, canvas);
       isDone = true;
