@@ -76,12 +76,37 @@ need_npm() {
   quietly npm --prefix tests/web ci --no-audit --no-fund
 }
 
+need_browser() {
+  need_npm
+  command -v chromium >/dev/null || need chromium fonts-dejavu-core
+}
+
 step_web() {
   need ccache
   toolchain/host.sh build
   need_npm
   npm --prefix tests/web run --silent recording
   npm --prefix tests/web run --silent server
+}
+
+# The page: its types, its style, its pure code, and that somebody can drive with it.
+step_page() {
+  need ccache
+  toolchain/host.sh build
+  need nodejs npm
+  quietly npm --prefix web ci --no-audit --no-fund
+  quietly npm --prefix web run check
+  npm --prefix web run --silent lint
+  npm --prefix web run --silent test
+  need_browser
+  npm --prefix tests/web run --silent drive
+}
+
+step_browser() {
+  need ccache
+  toolchain/host.sh build
+  need_browser
+  PICTURES=$PWD/build/pictures npm --prefix tests/web run --silent page
 }
 
 step_asan() {
@@ -214,5 +239,3 @@ step_arm64() {
     --set slam.trusted_range_m=30 --out "$out" --quiet
   fingerprint "$out"
 }
-
-# A step `browser`, with the page in a real browser, belongs here once there is a page.

@@ -5,9 +5,11 @@ namespace dynslam {
 
 std::string StateFeed::get(SteadyTime now) {
   const std::lock_guard lock(mutex_);
-  if (!made_ || now - *made_ >= kEvery / 2) {
+  const std::uint64_t scan = this->scan();
+  if (!made_ || scan != scan_ || now - *made_ >= kEvery / 2) {
     text_ = make_();
     made_ = now;
+    scan_ = scan;
   }
   return text_;
 }

@@ -20,16 +20,20 @@ class StateFeed {
   using SteadyTime = Clock::SteadyTime;
   static constexpr std::chrono::milliseconds kEvery{100};
 
-  explicit StateFeed(std::function<std::string()> make) : make_(std::move(make)) {}
+  StateFeed(const Ports& ports, std::function<std::string()> make) : ports_(ports), make_(std::move(make)) {}
 
-  /// Not older than half of kEvery.
+  /// Not older than half of kEvery, and with the newest scan.
   std::string get(SteadyTime now);
+  /// Changes when there is a new one.
+  std::uint64_t scan() const { return ports_.scan.get().version; }
 
  private:
+  const Ports& ports_;
   std::function<std::string()> make_;
   std::mutex mutex_;
   std::string text_;
   std::optional<SteadyTime> made_;
+  std::uint64_t scan_ = 0;  ///< that text_ has
 };
 
 /// The map as it is sent, its versions counted once for all who watch. Any thread.

@@ -41,7 +41,7 @@ Server::Server(Ports& ports, const Clock& clock, Access& access, const ServerCon
       access_api_(access, gate_),
       recordings_api_(ports, gate_, facts.recordings),
       settings_api_(ports, gate_, facts),
-      state_feed_([this] { return api_.state_text(); }),
+      state_feed_(ports, [this] { return api_.state_text(); }),
       map_feed_(ports, clock, new_map_id()),
       web_({config.bind, config.port, limits_of(config)}, handlers(access)) {
   serving_ = &web_;

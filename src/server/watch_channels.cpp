@@ -7,6 +7,7 @@ namespace dynslam {
 namespace {
 
 constexpr std::chrono::seconds kAskEvery{1};
+constexpr std::chrono::milliseconds kLookForScanEvery{10}, kScanMayBeLate{10};
 constexpr std::uint16_t kNotUnderstood = 1003, kNotAllowed = 1008;
 
 }  // namespace
@@ -22,10 +23,15 @@ std::optional<WsClosing> StateChannel::take(const WsMessage&, SteadyTime) {
   return WsClosing{kNotUnderstood, "nothing is said on this socket"};
 }
 
+/// A scan is not kept waiting for the next turn; scans that come ten times a second, more or less, set the
+/// pace.
 std::optional<WsMessage> StateChannel::next(SteadyTime now) {
-  if (now < due_) return std::nullopt;
-  const bool in_time = now < due_ + StateFeed::kEvery;
-  due_ = (in_time ? due_ : now) + StateFeed::kEvery;  // a turn that was missed is left out
+  look_at_ = now + kLookForScanEvery;
+  const std::uint64_t scan = feed_.scan();
+  if (now < due_ && (scan == scan_ || now < may_)) return std::nullopt;
+  scan_ = scan;
+  due_ = now + StateFeed::kEvery + kScanMayBeLate;
+  may_ = now + StateFeed::kEvery / 2;
   return WsMessage{WsOpcode::kText, feed_.get(now)};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -24,7 +25,7 @@ class WatchChannel : public Channel {
   SteadyTime ask_at_;
 };
 
-/// `state`: ten times a second all that a person wants to see.
+/// `state`: all that a person wants to see, with each scan.
 class StateChannel : public WatchChannel {
  public:
   StateChannel(StateFeed& feed, StillAllowed still_allowed)
@@ -33,11 +34,12 @@ class StateChannel : public WatchChannel {
   std::size_t longest_message() const override { return 64; }
   std::optional<WsClosing> take(const WsMessage& message, SteadyTime now) override;
   std::optional<WsMessage> next(SteadyTime now) override;
-  SteadyTime due() const override { return due_; }
+  SteadyTime due() const override { return std::min(due_, look_at_); }
 
  private:
   StateFeed& feed_;
-  SteadyTime due_;
+  std::uint64_t scan_ = 0;  ///< the newest that was told of
+  SteadyTime due_, may_, look_at_;
 };
 
 /// `map`: what has changed, once the client said what it has.

@@ -20,7 +20,8 @@ import { trailOverlay } from "./overlays/trail_overlay";
 import { TOP_LEVEL } from "./pyramid";
 import { draft, follows, putDraft, useToolAt } from "./tools";
 
-const FIRST_ZOOM = -1;
+/** What the first look shows from side to side, at least: a few rooms. */
+const FIRST_LOOK_M = 12;
 /** The robot may go this far from the middle, as a part of the screen, before the map follows. */
 const SLACK = 0.12;
 
@@ -59,7 +60,7 @@ export class Scene {
       doubleClickZoom: false,
       tapHold: false,
       center: latLng(robotsPlace() ?? { x: 0, y: 0 }),
-      zoom: FIRST_ZOOM,
+      zoom: firstZoom(element, cellSize_m),
     });
     this.cells.addTo(this.map);
     this.overlays = new OverlayCanvas(this.map, () => [...FROM_LOWEST.filter((layer) => layers.value[layer]).map((layer) => OVERLAYS[layer]), measureOverlay]);
@@ -145,6 +146,11 @@ export class Scene {
     const off = this.map.latLngToContainerPoint(latLng(place)).subtract(size.divideBy(2));
     if (Math.abs(off.x) > SLACK * size.x || Math.abs(off.y) > SLACK * size.y) this.map.panTo(latLng(place));
   }
+}
+
+function firstZoom({ clientWidth, clientHeight }: HTMLElement, cellSize_m: number): number {
+  const side_px = Math.min(clientWidth, clientHeight) || 400;
+  return Math.max(-TOP_LEVEL, Math.floor(Math.log2((side_px * cellSize_m) / FIRST_LOOK_M)));
 }
 
 function robotsPlace(): Point | null {

@@ -38,12 +38,6 @@ export function drawRobot(context: CanvasRenderingContext2D, inks: Inks, pose: P
   context.stroke();
   context.fillStyle = pose.lost ? inks.lost : inks.robot;
   context.fill();
-  context.lineWidth = 1.5;
-  context.strokeStyle = inks.halo;
-  context.beginPath();
-  context.moveTo(0.1 * length_px, -side);
-  context.lineTo(0.1 * length_px, side);
-  context.stroke();
   context.restore();
 }
 
