@@ -10,8 +10,8 @@ namespace dynslam {
 namespace {
 
 constexpr Duration kSilent = std::chrono::seconds(1);
-/// An angle is told in steps, which over less time would show as turning.
-constexpr Duration kTurnOver = std::chrono::milliseconds(80);
+/// An angle is told in steps and with noise, which over less time would show as turning.
+constexpr Duration kTurnOver = std::chrono::milliseconds(200);
 constexpr double kUnitNorm = 0.05;
 
 bool makes_sense(const ImuSample& sample) {
