@@ -55,7 +55,7 @@ Serving::Serving(Ports& ports, const Clock& clock, const Config& config, const S
     : access_(access_setup(config, options)) {
   ServerConfig server = config.server;
   if (options.port) server.port = *options.port;
-  server_.emplace(ports, clock, access_, server, facts_of(config, options));
+  server_.emplace(ports, clock, access_, server, facts_of(config, options), options.autopilot);
   const std::string host = server.bind.empty() ? "localhost" : server.bind;
   print("http://" + host + ':' + std::to_string(server_->port()) + "/\n");
   tell_owner_code();

@@ -15,6 +15,7 @@ namespace dynslam {
 struct ServeOptions {
   std::optional<int> port;  ///< in place of the config's
   std::string world;        ///< that is simulated; empty on a real robot
+  AutopilotPort autopilot = {};
 };
 
 /// The server of a program that runs a robot, wired to its settings. Prints the address to open.
@@ -26,8 +27,8 @@ class Serving {
   Serving(const Serving&) = delete;
   Serving& operator=(const Serving&) = delete;
 
-  /// Whether a person holds the wheel.
-  bool is_driven() const { return server_->is_driven(); }
+  /// Whether a person steers: see Server.
+  bool is_steered() const { return server_->is_steered(); }
 
  private:
   void tend();

@@ -117,8 +117,10 @@ int run_sim(const SimOptions& options, const Config& config) {
   std::optional<Serving> serving;
   if (!options.headless) {
     if (stepped) throw InputError("--speed 0 knows no time in which to serve: it goes with --headless");
-    serving.emplace(mission.robot().ports(), *clock, config, ServeOptions{options.port, options.world});
-    mission.yield_to([&serving] { return serving && serving->is_driven(); });
+    ServeOptions serve{options.port, options.world};
+    serve.autopilot.drives = [waits] { return !waits; };
+    serving.emplace(mission.robot().ports(), *clock, config, serve);
+    mission.yield_to([&serving] { return serving && serving->is_steered(); });
   }
   MissionEnd end;
   if (stepped) {

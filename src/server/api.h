@@ -29,8 +29,10 @@ struct ServerFacts {
 /// Where the autopilot is joined; while a function is empty the robot has none.
 struct AutopilotPort {
   /// Sets out; returns why not, in a sentence, or nothing.
-  std::function<std::string(const Pose2& map_T_goal, bool yaw_matters)> go_to;
-  std::function<std::string(const std::string& mode)> set_mode;
+  std::function<std::string(const Pose2& map_T_goal, bool yaw_matters)> go_to = {};
+  std::function<std::string(const std::string& mode)> set_mode = {};
+  /// Whether it commands the robot, unless somebody steers.
+  std::function<bool()> drives = {};
 };
 
 /// The requests of web/openapi.yaml about the robot. Any thread.

@@ -36,7 +36,7 @@ Server::Server(Ports& ports, const Clock& clock, Access& access, const ServerCon
     : ports_(ports),
       clock_(clock),
       gate_(access),
-      wheel_(ports, clock, facts.limits),
+      wheel_(ports, clock, facts.limits, autopilot.drives),
       api_(ports, clock, gate_, wheel_, events_, facts, std::move(autopilot)),
       access_api_(access, gate_),
       recordings_api_(ports, gate_, facts.recordings),

@@ -26,8 +26,8 @@ class Server {
 
   int port() const { return web_.port(); }
   static bool answers_ipv6() { return WebServer::answers_ipv6(); }
-  /// Whether a person holds the wheel: then nobody else commands.
-  bool is_driven() const { return wheel_.holder(0).driver.has_value(); }
+  /// Whether a person steers, or did and has the wheel still: then nobody else commands.
+  bool is_steered() const { return wheel_.is_steered(); }
 
  private:
   WebServer::Handlers handlers(Access& access);

@@ -12,13 +12,18 @@ Wheel::Client Wheel::enter() {
 
 void Wheel::leave(Client client) {
   const std::lock_guard lock(mutex_);
-  if (lease_.release(client)) command({}, true);
+  if (!lease_.release(client)) return;
+  if (!is_hands_off()) command({}, true);
+  steered_ = false;
 }
 
 bool Wheel::acquire(Client client, const std::string& name, bool take_over, SteadyTime now) {
   const std::lock_guard lock(mutex_);
   const DriverLease::Answer answer = lease_.acquire({client, name}, take_over, now);
-  if (answer.relieved) command({}, true);
+  if (answer.relieved) {
+    if (!is_hands_off()) command({}, true);
+    steered_ = false;
+  }
   return answer.granted;
 }
 
@@ -29,9 +34,16 @@ void Wheel::touch(Client client, SteadyTime now) {
   lease_.renew(client, now);
 }
 
+bool Wheel::is_steered() const {
+  const std::lock_guard lock(mutex_);
+  return steered_;
+}
+
 std::optional<Wheel::Sent> Wheel::drive(Client client, const Twist& wanted) {
   const std::lock_guard lock(mutex_);
   if (!lease_.holder() || lease_.holder()->client != client) return std::nullopt;
+  if (wanted.v_mps != 0.0 || wanted.w_radps != 0.0) steered_ = true;
+  if (is_hands_off()) return Sent{0, clock_.now()};
   return command({std::clamp(wanted.v_mps, -limits_.v_mps, limits_.v_mps),
                   std::clamp(wanted.w_radps, -limits_.w_radps, limits_.w_radps)},
                  false);

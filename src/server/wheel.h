@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "pipe/clock.h"
 #include "robot/ports.h"
@@ -19,14 +21,17 @@ struct TwistLimits {
 };
 
 /// Between those who want to drive and the robot: one of them holds the wheel, and only he commands. What he
-/// commands is stamped with the robot's clock; when he is gone the robot stops. Any thread.
+/// commands is stamped with the robot's clock; when he is gone the robot stops. A robot that drives by itself
+/// goes on doing so until he steers: that somebody only watches from the driver's seat is no command. Any
+/// thread.
 class Wheel {
  public:
   using Client = DriverLease::Client;
   using SteadyTime = DriverLease::SteadyTime;
 
-  Wheel(Ports& ports, const Clock& clock, const TwistLimits& limits)
-      : ports_(ports), clock_(clock), limits_(limits) {}
+  /// `drives_itself` says whether the robot does; empty: never.
+  Wheel(Ports& ports, const Clock& clock, const TwistLimits& limits, std::function<bool()> drives_itself = {})
+      : ports_(ports), clock_(clock), limits_(limits), drives_itself_(std::move(drives_itself)) {}
 
   /// A number for a client that may want to drive.
   Client enter();
@@ -39,8 +44,11 @@ class Wheel {
   /// The holder is still there.
   void touch(Client client, SteadyTime now);
 
+  /// Whether the holder has steered since he took the wheel.
+  bool is_steered() const;
+
   struct Sent {
-    std::uint64_t seq = 0;  ///< as the robot sees it
+    std::uint64_t seq = 0;  ///< as the robot sees it; 0 when it did not have to be told
     Time heard;
   };
   /// Commands the wanted, clamped, if the client holds the wheel. REQUIRES: finite.
@@ -67,14 +75,17 @@ class Wheel {
 
  private:
   Sent command(const Twist& twist, bool gone);
+  bool is_hands_off() const { return !steered_ && drives_itself_ && drives_itself_(); }
   void note_answered();
 
   Ports& ports_;
   const Clock& clock_;
   TwistLimits limits_;
+  std::function<bool()> drives_itself_;
   mutable std::mutex mutex_;
   Client clients_ = 0;
   DriverLease lease_;
+  bool steered_ = false;
   std::uint64_t seq_ = 0;
   std::optional<Answered> answered_;
   Delays delays_;

@@ -174,6 +174,34 @@ TEST_F(ControlTest, AForgottenWheelIsFreeForAll) {
   EXPECT_FALSE(wheel.holder(0).driver);
 }
 
+TEST(Wheel, LetsARobotDriveItselfUntilSomebodySteers) {
+  Ports ports;
+  SteppedClock clock{time_at_s(10)};
+  Wheel wheel(ports, clock, {1.0, 2.0}, [] { return true; });
+  const auto ada = wheel.enter();
+  ASSERT_TRUE(wheel.acquire(ada, "Ada", false, at(1)));
+  EXPECT_TRUE(wheel.drive(ada, {})) << "she holds the wheel";
+  EXPECT_FALSE(ports.command.get().value) << "but the robot need not know";
+  wheel.release(ada);
+  EXPECT_FALSE(ports.command.get().value);
+
+  ASSERT_TRUE(wheel.acquire(ada, "Ada", false, at(2)));
+  EXPECT_FALSE(wheel.is_steered());
+  wheel.drive(ada, {0.5, 0.0});
+  EXPECT_TRUE(wheel.is_steered());
+  EXPECT_EQ(ports.command.get().value->twist.v_mps, 0.5);
+  wheel.drive(ada, {});
+  EXPECT_EQ(ports.command.get().value->twist.v_mps, 0.0) << "who has steered is obeyed to the end";
+  EXPECT_TRUE(wheel.is_steered());
+
+  const auto bob = wheel.enter();
+  ASSERT_TRUE(wheel.acquire(bob, "Bob", true, at(3)));
+  EXPECT_TRUE(ports.command.get().value->gone);
+  EXPECT_FALSE(wheel.is_steered()) << "he has not steered yet";
+  wheel.leave(bob);
+  EXPECT_FALSE(wheel.is_steered());
+}
+
 TEST_F(ControlTest, CountsOnFromWhoCommandedBefore) {
   ports.command.put({500, {}, time_at_s(9), false});
   const auto a = enter("Ada");
