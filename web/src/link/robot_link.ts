@@ -46,7 +46,6 @@ export class RobotLink {
 
   private readonly heartbeat = new Heartbeat((message) => this.control.send(message));
   private readonly control = new LiveSocket("control", {
-    opened: () => this.grasp(),
     text: (message) => this.hearControl(message as ControlMessage),
     closed: () => this.letGo(),
   });
@@ -54,6 +53,8 @@ export class RobotLink {
     text: (message) => this.hearState(message as State),
     closed: () => void this.ask_who(),
   });
+  /** Whether the robot has said who has the wheel. */
+  private knowsWheel = false;
   private heard_ms = 0;
   private asking: Promise<void> | null = null;
 
@@ -138,10 +139,11 @@ export class RobotLink {
   /** Takes the wheel if it is free; a page that nobody looks at has no use for it. */
   private grasp(): void {
     if (!this.wantsWheel.value || !this.mayDrive || document.hidden) return;
-    if (this.control.isOpen && this.wheel.value.driver === null) this.control.send('{"lease":"acquire"}');
+    if (this.knowsWheel && this.wheel.value.driver === null) this.control.send('{"lease":"acquire"}');
   }
 
   private letGo(): void {
+    this.knowsWheel = false;
     this.heartbeat.stop();
     this.wheel.value = NOBODY;
     this.delay_ms.value = this.motor_ms.value = null;
@@ -156,6 +158,7 @@ export class RobotLink {
 
   private hearWheel(wheel: Wheel): void {
     const had = this.wheel.value.mine;
+    this.knowsWheel = true;
     this.wheel.value = wheel;
     if (wheel.mine) {
       this.heartbeat.start();

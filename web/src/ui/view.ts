@@ -12,8 +12,9 @@ function viewInAddress(): View {
 export const view = signal<View>(viewInAddress());
 window.addEventListener("hashchange", () => (view.value = viewInAddress()));
 
+/** Pressed again, a view goes back to its first page. */
 export function show(next: View): void {
-  if (view.value !== next) location.hash = next;
+  location.hash = next;
 }
 
 export function showNext(): void {
