@@ -214,13 +214,13 @@ fresh_debian() {
   quietly mmdebstrap --variant=minbase "$1" "$root" "$(toolchain/mirror.sh)"
   git clone --quiet --no-hardlinks . "$root/root/dynslam"
   # npm's registry may be reached over a certificate that only this machine knows.
-  cp /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/as-outside.crt"
+  cp /etc/ssl/certs/ca-certificates.crt "$root/root/as-outside.crt"
   echo "commit $(git log -1 --format='%h %s')$(git diff --quiet HEAD || echo ', without what is not committed')"
   for job in test "run sim --headless --speed 0 --out /root/dynslam/out" test; do
     began=$SECONDS
     # shellcheck disable=SC2086 # a job and its arguments
     unshare --mount --pid --fork --kill-child --root "$root" --mount-proc env -i \
-      NODE_EXTRA_CA_CERTS=/etc/ssl/as-outside.crt HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin CMAKE_BUILD_PARALLEL_LEVEL="$CMAKE_BUILD_PARALLEL_LEVEL" \
+      NODE_EXTRA_CA_CERTS=/root/as-outside.crt HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin CMAKE_BUILD_PARALLEL_LEVEL="$CMAKE_BUILD_PARALLEL_LEVEL" \
       /root/dynslam/toolchain/host.sh $job
     echo "host.sh $job took $((SECONDS - began)) s"
   done

@@ -58,6 +58,7 @@ Serving::Serving(Ports& ports, const Clock& clock, const Config& config, const S
   server_.emplace(ports, clock, access_, server, facts_of(config, options), options.autopilot);
   const std::string host = server.bind.empty() ? "localhost" : server.bind;
   print("http://" + host + ':' + std::to_string(server_->port()) + "/\n");
+  access_.tend(AccessTime::now());
   tell_owner_code();
   tends_ = std::thread([this] { tend(); });
 }

@@ -17,6 +17,7 @@ DriveOutput DriveControl::step(Time now, const DriveInputs& in) {
   const Duration passed = now_ ? now - *now_ : Duration(0);
   now_ = now;
   DriveOutput out;
+  if (in.driver_left) heartbeat_.driver_left();
   heartbeat_.update(now, in.command);
   out.battery_changed = watch_battery(now, in.motors);
 

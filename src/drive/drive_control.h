@@ -18,6 +18,7 @@ namespace dynslam {
 /// The newest of everything that driving needs; what did not change is given again.
 struct DriveInputs {
   std::optional<DriveCommand> command;  ///< a person's or the autopilot's
+  bool driver_left = false;             ///< somebody who drove is gone; the command is not older than that
   std::shared_ptr<const Scan> scan;
   bool has_imu = false;  ///< there is one, though it may not have spoken yet
   std::optional<ImuSample> imu;

@@ -19,6 +19,11 @@ Heartbeat::State Heartbeat::update(Time now, const std::optional<DriveCommand>& 
   return state_ = armed_ ? State::kAlive : State::kHeld;
 }
 
+void Heartbeat::driver_left() {
+  lose();
+  last_heard_.reset();
+}
+
 /// Commands are handed over newest first, the same one until there is another.
 bool Heartbeat::is_known(const DriveCommand& command) const {
   return last_ && command.seq == last_->seq && command.heard == last_->heard;
@@ -33,11 +38,7 @@ void Heartbeat::accept(const DriveCommand& command) {
   }
   // A gap that no update() fell into is a loss all the same.
   if (last_ && last_->heard + timeout_ <= command.heard) lose();
-  if (command.gone) {
-    lose();
-    last_heard_.reset();
-    return;
-  }
+  if (command.gone) return driver_left();
   if (!last_) steady_since_ = command.heard;
   last_ = command;
   last_heard_ = command.heard;

@@ -45,6 +45,8 @@ class Heartbeat {
   /// was taken, as commands from the future are refused. A `now` before the last one counts as a loss.
   State update(Time now, const std::optional<DriveCommand>& newest);
 
+  /// The driver is lost at once; whoever commands now begins anew.
+  void driver_left();
   /// After this a held stick must be let go first, though the driver was never lost: the robot was stopped.
   void require_release() { armed_ = false; }
 

@@ -67,6 +67,7 @@ bool RecordingFile::syncing() const { return sync_ && ::aio_error(sync_.get()) =
 void RecordingFile::sync_soon() {
   if (syncing()) return;
   settle();
+  check_sync();
   sync_ = std::make_unique<aiocb>();
   sync_->aio_fildes = file_;
   sync_->aio_sigevent.sigev_notify = SIGEV_NONE;
@@ -77,12 +78,20 @@ void RecordingFile::sync_soon() {
 void RecordingFile::settle() {
   const aiocb* const list[] = {sync_.get()};
   while (syncing()) ::aio_suspend(list, 1, nullptr);
-  if (sync_) ::aio_return(sync_.get());
+  if (!sync_) return;
+  const int error = ::aio_error(sync_.get());
+  if (::aio_return(sync_.get()) != 0 && sync_error_ == 0) sync_error_ = error;
   sync_.reset();
+}
+
+/// The system tells of a piece that the disk did not take once, and calls the next attempt a success.
+void RecordingFile::check_sync() const {
+  if (sync_error_ != 0) fail(sync_error_);
 }
 
 void RecordingFile::sync() {
   settle();
+  check_sync();
   if (::fsync(file_) != 0) fail(errno);
 }
 

@@ -42,6 +42,7 @@ class RecordingFile {
   void keep_floor(std::uint64_t bytes) const;
   void cut_back() noexcept;
   void settle();
+  void check_sync() const;
   [[noreturn]] void fail(int error) const;
 
   std::string path_;
@@ -49,6 +50,7 @@ class RecordingFile {
   int file_ = -1;
   std::uint64_t size_ = 0;
   std::unique_ptr<aiocb> sync_;  ///< null: none was asked for
+  int sync_error_ = 0;           ///< of one that failed
 };
 
 }  // namespace dynslam

@@ -11,6 +11,7 @@ namespace {
 /// Reading the board takes as long as driving it; brownouts last some tenths of a second.
 constexpr Duration kReadMotorsEvery = std::chrono::milliseconds(100);
 constexpr Duration kShowHealthEvery = std::chrono::milliseconds(500);
+constexpr Duration kBumpersCountFor = std::chrono::seconds(1);
 constexpr Duration kShowCountersEvery = std::chrono::seconds(1);
 
 template <class T>
@@ -41,6 +42,7 @@ void ControlStage::turn() {
   read_motors(begun);
   read_pins(begun);
   inputs_.command = value_of<DriveCommand>(ports_.command.get());
+  inputs_.driver_left = ports_.driver_left.exchange(false);  // after the command: none is older than this
   inputs_.scan = ports_.scan.get().value;
   inputs_.imu = value_of<ImuSample>(imu_.get());
   inputs_.power_limit = ports_.power_limit;
@@ -50,10 +52,11 @@ void ControlStage::turn() {
 
   const Time now = clock_.now();
   const DriveOutput out = control_.step(now, inputs_);
-  drive(out.power);
+  const bool driven = drive(out.power);
   const auto& command = inputs_.command;
-  if (command && (command->seq != answered_.seq || command->heard != answered_.heard)) {
-    answered_ = *command;
+  if (driven && command &&
+      (!answered_ || command->seq != answered_->seq || command->heard != answered_->heard)) {
+    answered_ = command;
     answered_at_ = clock_.now();
   }
   ports_.drive.put(drive_state(now, out));
@@ -67,10 +70,11 @@ void ControlStage::turn() {
 }
 
 DriveState ControlStage::drive_state(Time now, const DriveOutput& out) {
-  DriveState state{now, inputs_.command, answered_at_, out.verdict, out.applied, out.power, out.battery};
+  DriveState state{now, answered_, answered_at_, out.verdict, out.applied, out.power, out.battery};
   state.cause = out.cause;
   state.attitude = attitude_.update(now, inputs_.imu);
-  if (inputs_.pins) state.collision = inputs_.pins->value.bumper_pressed;
+  if (inputs_.pins && now - inputs_.pins->stamp < kBumpersCountFor)
+    state.collision = inputs_.pins->value.bumper_pressed;
   return state;
 }
 
@@ -100,12 +104,14 @@ void ControlStage::read_pins(Time now) {
   }
 }
 
-void ControlStage::drive(const WheelPower& power) {
-  if (!motors_) return;
+bool ControlStage::drive(const WheelPower& power) {
+  if (!motors_) return true;
   try {
     motors_->drive(power);
+    return true;
   } catch (const DeviceError& e) {
     note_trouble(motors_health_, ports_.motors_health, e.what());
+    return false;
   }
 }
 

@@ -33,7 +33,8 @@ class ControlStage {
  private:
   void read_motors(Time now);
   void read_pins(Time now);
-  void drive(const WheelPower& power);
+  /// Whether the board took it; it always does where there is none.
+  bool drive(const WheelPower& power);
   DriveState drive_state(Time now, const DriveOutput& out);
   void note_trouble(DeviceHealth& health, Latest<DeviceHealth>& shown, const std::string& trouble);
   void note_answer(DeviceHealth& health, Latest<DeviceHealth>& shown, Time now);
@@ -46,7 +47,7 @@ class ControlStage {
   DriveControl control_;
   DriveInputs inputs_;
   AttitudeTrack attitude_;
-  DriveCommand answered_;
+  std::optional<DriveCommand> answered_;
   Time answered_at_;
   Time due_, motors_due_, counters_due_;
   DeviceHealth motors_health_, pins_health_;

@@ -38,8 +38,8 @@ struct DeviceHealth {
 /// What is driven and why, after a tick of the control.
 struct DriveState {
   Time time;
-  std::optional<DriveCommand> command;  ///< the newest that was known
-  Time driven;                          ///< when the motors first had the power that answers it
+  std::optional<DriveCommand> answered;  ///< the newest that the motors got their power for
+  Time driven;                           ///< when they first had it
   Verdict verdict;
   Twist applied;
   WheelPower power;
@@ -68,7 +68,8 @@ struct RecordingState {
 /// The pipes of a robot that outsiders may touch: the server, missions, recorders. Any thread.
 struct Ports {
   // To the robot.
-  Latest<DriveCommand> command;  ///< newest wins; each is a heartbeat too
+  Latest<DriveCommand> command;          ///< newest wins; each is a heartbeat too
+  std::atomic<bool> driver_left{false};  ///< since the robot looked last; `command` may be another's by now
   std::atomic<double> power_limit{1.0};
   BoundedQueue<std::string> stops{16};  ///< who asks for a stop; that there was one is never lost
   std::atomic<bool> clear_asked{

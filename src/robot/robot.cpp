@@ -67,13 +67,15 @@ void Robot::start() {
   start_thread("graph", [this] { slam_stage_.graph_turn(); });
 }
 
-/// A thread takes turns until it is asked to stop. What it throws ends the robot, not the program.
+/// A thread takes turns until it is asked to stop, one at the least: the robot may have ended before the
+/// thread began, and has to stand still all the same. What it throws ends the robot, not the program.
 void Robot::start_thread(const char* name, std::function<void()> turn) {
   std::promise<void> ended;
   std::future<void> end = ended.get_future();
   auto run = [this, name, turn = std::move(turn), ended = std::move(ended)]() mutable {
     try {
-      while (!stop_.requested()) turn();
+      do turn();
+      while (!stop_.requested());
     } catch (const std::exception& e) {
       stop_.request(std::string(name) + ": " + e.what());
     }

@@ -138,16 +138,32 @@ HttpAnswer Api::graph(const HttpRequest&, const Visitor&) { return with_json(gra
 
 HttpAnswer Api::log(const HttpRequest&, const Visitor&) { return with_json(log_json(ports_)); }
 
+/// That of a large building has some ten megabytes, which a slow client keeps from the robot until it has
+/// them.
+HttpAnswer Api::map_answer(HttpAnswer (*make)(const GridSnapshot&)) {
+  constexpr int kMost = 2;
+  const std::shared_ptr<void> place(this, [this](void*) { --maps_on_the_way_; });
+  if (++maps_on_the_way_ > kMost)
+    return error_answer(503, "the map is being sent to others; try again in a moment");
+  HttpAnswer answer = make(map_of(ports_));
+  answer.held = place;
+  return answer;
+}
+
 HttpAnswer Api::map_png(const HttpRequest&, const Visitor&) {
-  return with_type("image/png", to_png(trinary_map(map_of(ports_))));
+  return map_answer([](const GridSnapshot& map) { return with_type("image/png", to_png(trinary_map(map))); });
 }
 
 HttpAnswer Api::map_pgm(const HttpRequest&, const Visitor&) {
-  return with_type("image/x-portable-graymap", to_pgm(trinary_map(map_of(ports_))));
+  return map_answer([](const GridSnapshot& map) {
+    return with_type("image/x-portable-graymap", to_pgm(trinary_map(map)));
+  });
 }
 
 HttpAnswer Api::map_yaml(const HttpRequest&, const Visitor&) {
-  return with_type("application/yaml", to_map_yaml(trinary_map(map_of(ports_)), "map.pgm"));
+  return map_answer([](const GridSnapshot& map) {
+    return with_type("application/yaml", to_map_yaml(trinary_map(map), "map.pgm"));
+  });
 }
 
 HttpAnswer Api::goal(const HttpRequest& request, const Visitor&) {

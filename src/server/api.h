@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
@@ -61,6 +62,7 @@ class Api {
   HttpAnswer worlds(const HttpRequest&, const Visitor&);
   HttpAnswer graph(const HttpRequest&, const Visitor&);
   HttpAnswer log(const HttpRequest&, const Visitor&);
+  HttpAnswer map_answer(HttpAnswer (*make)(const GridSnapshot&));
   HttpAnswer map_png(const HttpRequest&, const Visitor&);
   HttpAnswer map_pgm(const HttpRequest&, const Visitor&);
   HttpAnswer map_yaml(const HttpRequest&, const Visitor&);
@@ -77,6 +79,7 @@ class Api {
   EventCounters& events_;
   ServerFacts facts_;
   AutopilotPort autopilot_;
+  std::atomic<int> maps_on_the_way_{0};
   Clock::SteadyTime begun_ = std::chrono::steady_clock::now();
 };
 

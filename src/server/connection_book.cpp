@@ -4,6 +4,8 @@
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 
+#include "server/access/ip_address.h"
+
 namespace dynslam {
 namespace {
 
@@ -12,6 +14,16 @@ constexpr std::chrono::milliseconds kLookEvery{100};
 bool is_all_read(int socket) {
   int unread = 0;
   return ioctl(socket, FIONREAD, &unread) != 0 || unread == 0;
+}
+
+/// Whose share of the seats an address counts to: of IPv6 a whole subnet is one holder's, who may call
+/// himself by any address in it. Link-local ones are all of one subnet.
+std::string share_of(const std::string& address) {
+  static const IpNetwork kLinkLocal = *parse_network("fe80::/10");
+  const auto ip = parse_ip(address);
+  if (!ip || kLinkLocal.contains(*ip)) return address;
+  const IpAddress holder = holder_of(*ip);
+  return {holder.bytes.begin(), holder.bytes.end()};
 }
 
 /// The thread that serves it finds it closed. REQUIRES: the book is locked.
@@ -101,7 +113,7 @@ void ConnectionBook::note_new() {
   for (const auto& [file, peer] : open_sockets(port_)) {
     if (connections_.contains(peer)) continue;
     Connection& connection = connections_[peer];
-    connection.id = seats_.open(peer.address, std::chrono::steady_clock::now());
+    connection.id = seats_.open(share_of(peer.address), std::chrono::steady_clock::now());
     connection.socket = file;
     if (connection.id == 0) {
       cut(connection);

@@ -34,13 +34,15 @@ ControlChannel::ControlChannel(Wheel& wheel, Ports& ports, const Clock& clock, E
 ControlChannel::~ControlChannel() { wheel_.leave(number_); }
 
 std::optional<WsClosing> ControlChannel::take(const WsMessage& message, SteadyTime now) {
-  if (!rate_.pass(Time(now.time_since_epoch()))) {
+  if (message.opcode != WsOpcode::kText) return WsClosing{kNotUnderstood, "messages here are text"};
+  const auto said = parse_control(message.payload);
+  // A stop counts however much else is said.
+  if (!std::holds_alternative<StopWish>(said) && !rate_.pass(Time(now.time_since_epoch()))) {
     events_.add("server.control_messages_dropped");
     return ++dropped_ > kMostDropped ? std::optional(WsClosing{kTooMuch, "too many messages"}) : std::nullopt;
   }
-  if (message.opcode != WsOpcode::kText) return WsClosing{kNotUnderstood, "messages here are text"};
   wheel_.touch(number_, now);
-  std::visit([&](const auto& m) { take_one(m, now); }, parse_control(message.payload));
+  std::visit([&](const auto& m) { take_one(m, now); }, said);
   return std::nullopt;
 }
 

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,7 @@ struct HttpAnswer {
   std::string body;
   std::vector<std::pair<std::string, std::string>> headers;  ///< besides those that every answer has
   std::string file;                                          ///< sent instead of the body
+  std::shared_ptr<void> held;                                ///< let go once all is sent
 };
 
 /// The line that every error has for its body: {"error": "one sentence"}.

@@ -45,8 +45,9 @@ std::string plain_address(const std::string& address) {
 std::vector<OpenSocket> open_sockets(int port) {
   std::vector<OpenSocket> sockets;
   std::error_code failed;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", failed)) {
-    const int file = std::atoi(entry.path().filename().c_str());
+  std::filesystem::directory_iterator entry("/proc/self/fd", failed);
+  for (; !failed && entry != std::filesystem::directory_iterator(); entry.increment(failed)) {
+    const int file = std::atoi(entry->path().filename().c_str());
     const auto own = end_of(file, getsockname);
     if (!own || own->port != port) continue;
     const auto peer = end_of(file, getpeername);

@@ -58,16 +58,24 @@ WebServer::Handlers Server::handlers(Access& access) {
   recordings_api_.add_to(routes_);
   settings_api_.add_to(routes_);
   add_page(routes_, gate_);
-  return {[this](const HttpRequest& request) { return routes_.answer(request); },
+  return {[this](const HttpRequest& request) { return answer(request); },
           [this](const HttpRequest& request) { return open(request); }, use_of};
+}
+
+/// Who may not ask at all does not learn what there is not either.
+HttpAnswer Server::answer(const HttpRequest& request) {
+  HttpAnswer answer = routes_.answer(request);
+  if (answer.status != 404 && answer.status != 405) return answer;
+  const Gate::Decision decision = gate_.admit_to_stop(request);
+  return decision.refusal ? *decision.refusal : answer;
 }
 
 std::variant<std::unique_ptr<Channel>, HttpAnswer> Server::open(const HttpRequest& request) {
   const std::string kind = request.path.substr(std::min(kSockets.size(), request.path.size()));
-  if (kind != "control" && kind != "state" && kind != "map" && kind != "video")
-    return error_answer(404, "there is no such WebSocket");
   Gate::Decision decision = gate_.admit(request, Role::kViewer);
   if (decision.refusal) return *decision.refusal;
+  if (kind != "control" && kind != "state" && kind != "map" && kind != "video")
+    return error_answer(404, "there is no such WebSocket");
   Visitor& visitor = decision.visitor;
   if (kind == "state") return std::make_unique<StateChannel>(state_feed_, std::move(visitor.still_allowed));
   if (kind == "map") return std::make_unique<MapChannel>(map_feed_, std::move(visitor.still_allowed));

@@ -31,6 +31,7 @@ class Server {
 
  private:
   WebServer::Handlers handlers(Access& access);
+  HttpAnswer answer(const HttpRequest& request);
   std::variant<std::unique_ptr<Channel>, HttpAnswer> open(const HttpRequest& request);
 
   Ports& ports_;

@@ -26,6 +26,7 @@ namespace {
 
 constexpr const char* kRequestTimeoutMs = "5000";
 constexpr const char* kSockets = "/api/v1/ws";
+constexpr std::size_t kLongBody = std::size_t{1} << 20;  ///< takes a slow client as long as it takes
 
 const char* reason_of(int status) {
   switch (status) {
@@ -300,6 +301,7 @@ int WebServer::Implementation::begin(mg_connection* connection) {
   if (is_upgrade(request)) return open_socket(connection, *kept, request);
   const HttpAnswer reply = answer(connection, *kept, request);
   if (reply.file.empty()) {
+    if (reply.body.size() > kLongBody) book.use(*kept, Seats::Use::kDownload);
     write_answer(connection, reply, request.method == "HEAD");
   } else {
     book.use(*kept, Seats::Use::kDownload);
@@ -310,9 +312,11 @@ int WebServer::Implementation::begin(mg_connection* connection) {
 
 HttpAnswer WebServer::Implementation::answer(mg_connection* connection, Connection& kept,
                                              HttpRequest& request) {
-  if (!book.use(kept, handlers.use(request)))
-    return error_answer(503, "too many clients; try again in a moment");
-  if (!read_body(connection, request)) return error_answer(413, "the request is too long");
+  const Seats::Use use = handlers.use(request);
+  if (!book.use(kept, use)) return error_answer(503, "too many clients; try again in a moment");
+  // Stopping needs no body, and waits for none.
+  if (use != Seats::Use::kStop && !read_body(connection, request))
+    return error_answer(413, "the request is too long");
   try {
     return handlers.answer(request);
   } catch (const std::exception& e) {
@@ -343,8 +347,14 @@ int WebServer::Implementation::open_socket(mg_connection* connection, Connection
 void WebServer::Implementation::serve(mg_connection* connection) {
   Connection* kept = book.find(peer_of(connection));
   if (kept == nullptr || !kept->channel) return;
-  WsSession(kept->socket, *kept->channel).run(stopping);
-  kept->channel.reset();
+  WsSession session(kept->socket, *kept->channel);
+  try {
+    session.run(stopping);
+  } catch (const std::exception&) {
+    // Memory has run out, it may be: this client is lost, and nobody else.
+  }
+  kept->channel.reset();  // first of all, as the robot stops when its driver is gone
+  session.farewell();
 }
 
 void WebServer::Implementation::stop() {

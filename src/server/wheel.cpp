@@ -73,16 +73,17 @@ Wheel::Sent Wheel::command(const Twist& twist, bool gone) {
   if (const auto last = ports_.command.get().value) seq_ = std::max(seq_, last->seq);
   const Sent sent{++seq_, clock_.now()};
   ports_.command.put({sent.seq, twist, sent.heard, gone});
+  if (gone) ports_.driver_left = true;  // which the next one's command may overtake
   return sent;
 }
 
 /// Each command counts once, the first time that its answer is seen.
 void Wheel::note_answered() {
   const auto drive = ports_.drive.get().value;
-  if (!drive || !drive->command || drive->command->seq > seq_) return;
-  if (answered_ && drive->command->seq <= answered_->seq) return;
-  answered_ = Answered{drive->command->seq, drive->driven - drive->command->heard};
-  (drive->command->gone ? delays_.drop_to_off : delays_.command_to_motor).add(answered_->delay);
+  if (!drive || !drive->answered || drive->answered->seq > seq_) return;
+  if (answered_ && drive->answered->seq <= answered_->seq) return;
+  answered_ = Answered{drive->answered->seq, drive->driven - drive->answered->heard};
+  (drive->answered->gone ? delays_.drop_to_off : delays_.command_to_motor).add(answered_->delay);
 }
 
 }  // namespace dynslam

@@ -27,6 +27,9 @@ WsSession::WsSession(int socket, Channel& channel)
   const int on = 1;
   setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
   setsockopt(socket_, SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof(kSendBuffer));
+  // More than this does not wait in the system for a slow client, or he would see what was seconds ago.
+  const int most_unsent = 8 * 1024;
+  setsockopt(socket_, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most_unsent, sizeof(most_unsent));
   sent_at_ = heard_at_ = pinged_at_ = std::chrono::steady_clock::now();
 }
 
@@ -50,7 +53,6 @@ void WsSession::run(const std::atomic<bool>& stopping) {
     if (stopping) continue;
     if (ready > 0 && (watched.revents & (POLLIN | POLLHUP | POLLERR)) != 0) open = receive(now);
   }
-  farewell();
 }
 
 /// Takes the next thing to send, once all before it is out.
@@ -114,8 +116,6 @@ bool WsSession::handle(const WsMessage& message, SteadyTime now) {
   return !closing || close(*closing);
 }
 
-/// Ends the connection. What the client is still saying is heard for a moment, or the system would throw away
-/// what was said to it last.
 void WsSession::farewell() {
   shutdown(socket_, SHUT_WR);
   const SteadyTime end = std::chrono::steady_clock::now() + kFarewell;

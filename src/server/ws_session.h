@@ -23,8 +23,11 @@ class WsSession {
   /// `socket` stays the caller's.
   WsSession(int socket, Channel& channel);
 
-  /// Until the client is gone, does what it may not, or `stopping`. The socket is shut down then.
+  /// Until the client is gone, does what it may not, or `stopping`. Throws what the channel throws.
   void run(const std::atomic<bool>& stopping);
+  /// Ends the connection. What the client is still saying is heard for a moment, or the system would throw
+  /// away what was said to it last.
+  void farewell();
 
  private:
   using SteadyTime = Channel::SteadyTime;
@@ -35,7 +38,6 @@ class WsSession {
   bool handle(const WsMessage& message, SteadyTime now);
   SteadyTime wake_at() const;
   bool close(const WsClosing& closing);
-  void farewell();
 
   int socket_;
   Channel& channel_;

@@ -35,8 +35,8 @@ class ControlTest : public testing::Test {
   /// The motors answer the newest command after a while.
   void answer(Duration after) {
     DriveState state;
-    state.command = commanded();
-    state.driven = state.command->heard + after;
+    state.answered = commanded();
+    state.driven = state.answered->heard + after;
     state.verdict = {Motion::kSlow, "a wall"};
     ports.drive.put(state);
   }

@@ -18,4 +18,9 @@ robot.start();
 sitDown();
 // For whoever looks from the browser's console, or measures.
 Object.assign(window, { dynslam: { robot, scanAge_ms, videoAge_ms } });
+// The keyboard of an iPhone lies over the page, and would lie over STOP.
+window.visualViewport?.addEventListener("resize", () => {
+  const { height, scale } = window.visualViewport!;
+  document.documentElement.style.setProperty("--seen", `${height * scale}px`);
+});
 render(<App />, document.getElementById("app")!);

@@ -10,7 +10,8 @@ export const strings = {
   close: "Close",
   link: {
     connecting: "Connecting to the robot …",
-    lost: "Connection lost. The robot has stopped by itself. Trying again …",
+    lost: "Connection lost. If you drove, the robot has stopped; otherwise it may be moving. Trying again …",
+    stopUnheard: "STOP: the robot has not heard it yet. Trying again …",
     stopped: "The robot is stopped",
   },
   wheel: {
@@ -43,11 +44,12 @@ export const strings = {
     wheelFreeAbout: "The wheel is free: take it to drive.",
     watching: "Watching",
     watchingAbout: "You may look, and stop the robot. Ask an admin if you are to drive.",
-    linkAbout: "How long a command takes to the robot and back. Over 200 ms the robot stops by itself.",
+    linkAbout: "How long a command takes to the robot and back. When answers take over 200 ms this page stops the robot.",
     linkLost: "No link",
     linkUp: "Linked",
     videoAbout: "How old the picture is when you see it.",
     noVideo: "No video",
+    standing: "Stands still",
     byHand: "By hand",
     byHandAbout: "The autopilot is off.",
     pilotActive: "Autopilot",

@@ -78,6 +78,7 @@ struct Access::State {
   Judgement judge(const AccessRequest& request, Role needed, const AccessTime& now, Check check);
   Judgement identify(const AccessRequest& request, const Shown& shown, const AccessTime& now);
   void see(Credential& credential, const AccessTime& now);
+  void forgive_clock(const AccessTime& now);
   Admission take(const std::string& typed, const std::string& address, const AccessTime& now,
                  PairingCode& code);
   Admission admit(Kind kind, const std::string& name, Role role, const AccessTime& now);
@@ -97,7 +98,23 @@ struct Access::State {
   Counters counts;
   bool unsaved = false;
   std::optional<std::chrono::steady_clock::time_point> seen_saved;
+  std::optional<AccessTime> tended;
 };
+
+/// A clock that was put right by years, as that of a Pi is whenever it finds the internet, is nobody's
+/// absence.
+void Access::State::forgive_clock(const AccessTime& now) {
+  constexpr std::chrono::hours kJump{1};
+  if (tended) {
+    const auto passed = std::chrono::floor<std::chrono::seconds>(now.steady - tended->steady);
+    const auto jump = now.wall - tended->wall - passed;
+    if (jump > kJump) {
+      book.forgive(jump);
+      unsaved = true;
+    }
+  }
+  tended = now;
+}
 
 void Access::State::load(const std::string& folder) {
   file.emplace(folder);
@@ -293,6 +310,7 @@ void Access::set_addresses(const std::vector<std::string>& addresses) {
 void Access::tend(const AccessTime& now) {
   {
     const std::lock_guard lock(state_->mutex);
+    state_->forgive_clock(now);
     if (!state_->unsaved || (state_->seen_saved && now.steady - *state_->seen_saved < kSaveSeenEvery)) return;
     state_->seen_saved = now.steady;
   }

@@ -30,6 +30,8 @@ class CredentialBook {
   /// Null when there is none, or it has expired. Compares with all, however early it matches.
   Credential* find(Credential::Kind kind, const Digest& digest, WallTime now);
   Credential* find(const std::string& id, WallTime now);
+  /// All were seen so much later than it was believed.
+  void forgive(std::chrono::seconds absence);
   bool has_admin(WallTime now) const;
   /// The oldest first.
   std::vector<Credential> all(WallTime now) const;

@@ -31,6 +31,8 @@ describe("a thumb", () => {
     await finger.move(x, y - 30);
     await drives(its.robot);
     assert.ok((await speed(its.robot)) > 0, "up is ahead");
+    const drawn = await page.locator(".nipple .back").boundingBox();
+    assert.ok(Math.hypot(drawn.x + drawn.width / 2 - x, drawn.y + drawn.height / 2 - y) < 5, "the stick is drawn under the thumb");
     await finger.move(x - 60, y);
     await until(async () => (await turn(its.robot)) > 0.1, "left on the stick to be left of the robot");
     await finger.up();
@@ -119,6 +121,27 @@ describe("keys", () => {
     await page.keyboard.up("KeyA");
   });
 
+  it("scroll where one reads, and do not drive", async () => {
+    const page = await its.open("laptop", { hash: "#more/about" });
+    await ready(page, its.robot);
+    await page.keyboard.down("ArrowDown");
+    await page.waitForTimeout(400);
+    assert.equal(await speed(its.robot), 0);
+    await page.keyboard.up("ArrowDown");
+  });
+
+  it("stop when something else takes them, as a Mac's Cmd or a menu does", async () => {
+    const page = await its.open();
+    await ready(page, its.robot);
+    for (const take of [() => page.keyboard.press("Meta"), () => page.mouse.click(400, 300, { button: "right" })]) {
+      await page.keyboard.down("KeyA");
+      await turns(its.robot);
+      await take();
+      await stands(its.robot);
+      await page.keyboard.up("KeyA");
+    }
+  });
+
   it("set the power limit", async () => {
     const page = await its.open();
     await ready(page, its.robot);
@@ -203,6 +226,33 @@ describe("losing the page", () => {
     await ready(page, its.robot);
     await page.keyboard.down("KeyA");
     await turns(its.robot);
+    await page.keyboard.up("KeyA");
+    await network.end();
+  });
+
+  it("does not lose a STOP that was pressed meanwhile", async () => {
+    const network = await FlakyNetwork.to(its.robot);
+    const page = await its.open("laptop", { url: network.url });
+    await ready(page, its.robot);
+    network.die();
+    await page.getByRole("button", { name: "STOP" }).click();
+    await page.getByRole("alert").filter({ hasText: "has not heard" }).waitFor();
+    assert.notEqual((await its.robot.json("/api/v1/state")).verdict.motion, "e-stop");
+    network.live();
+    await until(async () => (await its.robot.json("/api/v1/state")).verdict.motion === "e-stop", "the stop");
+    await network.end();
+  });
+
+  it("does not obey late: commands that wait on the way are not for driving", async () => {
+    const network = await FlakyNetwork.to(its.robot);
+    const page = await its.open("laptop", { url: network.url });
+    await ready(page, its.robot);
+    await page.keyboard.down("KeyA");
+    await turns(its.robot);
+    network.slow(600);
+    await stands(its.robot);
+    await page.waitForTimeout(1500);
+    assert.equal(await turn(its.robot), 0, "a key that is held is not obeyed 600 ms late");
     await page.keyboard.up("KeyA");
     await network.end();
   });

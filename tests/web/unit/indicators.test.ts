@@ -70,6 +70,14 @@ describe("the indicators", () => {
     assert.equal(seen({ collision: true }).collision!.level, "bad");
     assert.equal(seen({ collision: null }).collision!.level, "off");
   });
+  it("tell why the robot does not move", () => {
+    const stop = (cause: "scan" | "driver" | "e-stop") => ({ motion: "stop", cause, reason: `because of ${cause}` }) as const;
+    assert.equal(seen({ verdict: stop("scan") }).standing!.level, "bad");
+    assert.equal(seen({ verdict: stop("scan") }).standing!.about, "because of scan");
+    assert.equal(seen({ verdict: stop("driver") }).standing!.level, "warn");
+    assert.equal(seen({ verdict: stop("driver") }, { wheel: { mine: false, driver: null } }).standing!.level, "off", "nobody wants to drive");
+    assert.equal(seen({ verdict: stop("e-stop") }).standing!.level, "off", "the banner tells of it");
+  });
   it("tell what spoils the map", () => {
     assert.equal(seen({ pose: { ...state.pose!, unsteady: "turning" } }).yaw!.level, "warn");
     assert.equal(seen({ pose: { ...state.pose!, unsteady: "tilting" } }).tilt!.level, "warn");

@@ -97,4 +97,24 @@ describe("the heartbeat", () => {
     assert.equal(heartbeat.waiting_ms(), 0, "what was not sent is not waited for");
     heartbeat.stop();
   });
+  it("does not steer while answers are late, nor after that before the driver has let go", () => {
+    const { heartbeat, sent, time } = start();
+    const last = () => sent[sent.length - 1]!;
+    heartbeat.start();
+    heartbeat.want({ v: 1, w: 0 });
+    time.ms = 250;
+    tick(1);
+    assert.equal(last().v, 0);
+    heartbeat.answered(last().seq);
+    time.ms = 300;
+    tick(1);
+    assert.equal(last().v, 0);
+    heartbeat.answered(last().seq);
+    heartbeat.want({ v: 0, w: 0 });
+    heartbeat.want({ v: 0.5, w: 0 });
+    time.ms = 350;
+    tick(1);
+    assert.equal(last().v, 0.5);
+    heartbeat.stop();
+  });
 });

@@ -56,6 +56,7 @@ function act(action: PadAction): void {
 export function sitDown(): void {
   steering.watchAttention();
   watchKeyboard({
+    maySteer: () => view.peek() !== "more",
     steer: (stick) => steering.set("keys", stick),
     stop: () => robot.stop(),
     changePower,
@@ -66,6 +67,9 @@ export function sitDown(): void {
   effect(() => {
     if (robot.wheel.value.mine) void steering.learnLimits();
     steering.release();
+  });
+  effect(() => {
+    if (view.value === "more") steering.release();
   });
   let collided = false;
   effect(() => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import type { Stick } from "./stick";
+import { CENTRED, isCentred, type Stick } from "./stick";
 
 /** Buttons of the W3C's standard mapping. */
 const BUTTON = { a: 0, b: 1, x: 2, lb: 4, rb: 5, lt: 6, rt: 7, back: 8, up: 12, down: 13, left: 14, right: 15, rightStick: 11 } as const;
@@ -66,18 +66,26 @@ const LOOK_EVERY_MS = 16;
 /** Looks at the first standard gamepad while there is one; a gamepad that goes lets go. */
 export function watchGamepad(events: PadEvents): void {
   let before: PadReading | null = null;
+  let steered = CENTRED;
+  let isArmed = false; // the stick was in its middle since the gamepad came, and this window had the focus
   let timer = 0;
+  const steer = (stick: Stick) => {
+    if (stick.ahead !== steered.ahead || stick.left !== steered.left) events.steer((steered = stick));
+  };
   const look = () => {
     const pad = navigator.getGamepads().find((p) => p?.connected && p.mapping === "standard");
     if (!pad) {
-      if (before) events.steer({ ahead: 0, left: 0 });
+      steer(CENTRED);
       before = null;
+      isArmed = false;
       clearInterval(timer);
       timer = 0;
       return;
     }
     const now = readPad(pad);
-    if (before && (now.stick.ahead !== before.stick.ahead || now.stick.left !== before.stick.left)) events.steer(now.stick);
+    if (!document.hasFocus()) isArmed = false;
+    else if (isCentred(now.stick)) isArmed = true;
+    steer(isArmed ? now.stick : CENTRED);
     if (now.pan.x !== 0 || now.pan.y !== 0) events.pan(now.pan.x, now.pan.y);
     for (const action of newPresses(now, before)) events.act(action);
     before = now;

@@ -14,20 +14,27 @@ const byMouse = matchMedia("(pointer: fine)").matches;
 export function Joystick({ steer }: { steer: (stick: Stick) => void }) {
   const zone = useRef<HTMLDivElement>(null);
   useEffect(() => {
-    let release = plant(zone.current!, steer);
+    const element = zone.current!;
+    let release = plant(element, steer);
     const replant = () => {
       release();
-      release = plant(zone.current!, steer);
+      release = plant(element, steer);
     };
+    // The library goes by pointers, and a phone may forget to tell that one is gone: its touches are a second witness.
+    const untouched = (event: Event) => {
+      if ((event as TouchEvent).targetTouches.length === 0) replant();
+    };
+    element.addEventListener("touchend", untouched);
     const losses: [EventTarget, string][] = [
       [window, "blur"],
       [window, "resize"],
       [document, "visibilitychange"],
-      [zone.current!, "pointercancel"],
-      [zone.current!, "touchcancel"],
+      [element, "pointercancel"],
+      [element, "touchcancel"],
     ];
     for (const [target, event] of losses) target.addEventListener(event, replant);
     return () => {
+      element.removeEventListener("touchend", untouched);
       for (const [target, event] of losses) target.removeEventListener(event, replant);
       release();
     };

@@ -27,6 +27,8 @@ export function stickOf(down: ReadonlySet<string>): Stick {
 }
 
 export interface KeyboardActions {
+  /** False where one reads: there the arrows scroll. */
+  maySteer: () => boolean;
   steer: (stick: Stick) => void;
   stop: () => void;
   changePower: (steps: number) => void;
@@ -38,7 +40,9 @@ function isForOthers(event: KeyboardEvent): boolean {
   if (event.ctrlKey || event.metaKey || event.altKey) return true;
   const target = event.target;
   if (!(target instanceof HTMLElement)) return false;
-  return target.isContentEditable || /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName) || target.closest(".keeps-keys") !== null;
+  // A slider has no use for the space bar, so there too it stops the robot.
+  if (event.code === "Space" && target instanceof HTMLInputElement && target.type === "range") return false;
+  return target.isContentEditable || /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName);
 }
 
 /** Arrows and WASD steer, space stops, + and - set the power limit, M goes to the map and back. */
@@ -53,9 +57,15 @@ export function watchKeyboard(actions: KeyboardActions): void {
     NumpadSubtract: () => actions.changePower(-1),
     KeyM: actions.switchView,
   };
+  const forget = () => {
+    down.clear();
+    steer();
+  };
   window.addEventListener("keydown", (event) => {
+    if (isForOthers(event)) return forget(); // a Mac tells of no key that comes up while Cmd is down
+    if (!(event.code in WAYS) && !(event.code in acts)) return;
+    if (event.code in WAYS && !actions.maySteer()) return;
     // Space on a button that has the focus would press it as well: STOP comes first.
-    if (isForOthers(event) || (!(event.code in WAYS) && !(event.code in acts))) return;
     event.preventDefault();
     if (event.repeat) return;
     if (event.code in WAYS) {
@@ -68,11 +78,8 @@ export function watchKeyboard(actions: KeyboardActions): void {
   window.addEventListener("keyup", (event) => {
     if (down.delete(event.code)) steer();
   });
-  // A key that comes up while another window has the focus is never heard of.
-  const forget = () => {
-    down.clear();
-    steer();
-  };
+  // A key that comes up while another window or a menu has the focus is never heard of.
   window.addEventListener("blur", forget);
+  window.addEventListener("contextmenu", forget);
   document.addEventListener("visibilitychange", forget);
 }

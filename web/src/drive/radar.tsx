@@ -11,6 +11,10 @@ const NEAR_CM = 40;
 /** Half of the robot's length and width, metres, for its picture. */
 const BODY_M = { length: 0.14, width: 0.12 };
 
+/** An older scan is no picture of what is around now. */
+export const OLD_SCAN_MS = 500;
+const LOOK_EVERY_MS = 200;
+
 /** A distance that shows what is around, in steps, so that the picture does not breathe. */
 export function radiusFor(ranges_cm: readonly number[]): number {
   const near = ranges_cm.filter((cm) => cm > 0).sort((a, b) => a - b);
@@ -93,8 +97,14 @@ export function Radar() {
         scanAge_ms.value = robot.clock.age_ms(scan.t_s, performance.now());
       });
     });
+    const ageing = setInterval(() => {
+      const scan = robot.state.peek()?.scan;
+      const age_ms = scan ? robot.clock.age_ms(scan.t_s, performance.now()) : null;
+      canvas.current?.classList.toggle("radar-old", age_ms === null || age_ms > OLD_SCAN_MS);
+    }, LOOK_EVERY_MS);
     return () => {
       stop();
+      clearInterval(ageing);
       cancelAnimationFrame(frame);
     };
   }, []);

@@ -7,6 +7,8 @@ import { robot } from "../robot";
 import { strings } from "../strings";
 
 const MISSED_AFTER_MS = 2000;
+/** A picture that no other follows is told of as getting old from here on. */
+const STALE_AFTER_MS = 300;
 
 /** How old the newest picture was when it was shown, milliseconds; null while there is none. */
 export const videoAge_ms = signal<number | null>(null);
@@ -17,6 +19,9 @@ class Player {
   private waiting: Picture | null = null;
   private busy = false;
   private missed = 0;
+  private isOver = false;
+  private shown: { taken_s: number; at_ms: number } | null = null;
+  private readonly ageing = window.setInterval(() => this.age(), 250);
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.socket.start();
@@ -24,8 +29,10 @@ class Player {
   }
 
   end(): void {
+    this.isOver = true;
     this.socket.stop();
     clearTimeout(this.missed);
+    clearInterval(this.ageing);
     videoAge_ms.value = null;
   }
 
@@ -51,14 +58,22 @@ class Player {
 
   private async draw(picture: Picture): Promise<void> {
     const bitmap = await createImageBitmap(new Blob([picture.jpeg], { type: "image/jpeg" }));
+    if (this.isOver) return bitmap.close();
     if (this.canvas.width !== bitmap.width || this.canvas.height !== bitmap.height) {
       this.canvas.width = bitmap.width;
       this.canvas.height = bitmap.height;
     }
     this.canvas.getContext("2d")?.drawImage(bitmap, 0, 0);
     bitmap.close();
-    videoAge_ms.value = robot.clock.age_ms(picture.taken_s, performance.now());
+    this.shown = { taken_s: picture.taken_s, at_ms: performance.now() };
+    videoAge_ms.value = robot.clock.age_ms(picture.taken_s, this.shown.at_ms);
     this.expect();
+  }
+
+  private age(): void {
+    const now_ms = performance.now();
+    if (videoAge_ms.peek() !== null && this.shown && now_ms - this.shown.at_ms > STALE_AFTER_MS)
+      videoAge_ms.value = robot.clock.age_ms(this.shown.taken_s, now_ms);
   }
 
   private expect(): void {

@@ -37,7 +37,7 @@ const percent = (share: number) => `${Math.round(100 * share)} %`;
 /** What the thesis's client showed (appendix B.2), and what ours adds. Pure; the order is the order on the screen. */
 export function indicators(seen: Seen): Indicator[] {
   const { state } = seen;
-  return [wheel(seen), link(seen), ...(state ? ofState(state) : []), video(seen)];
+  return [wheel(seen), link(seen), ...(state ? [standing(state, seen), ...ofState(state)] : []), video(seen)];
 }
 
 function ofState(state: State): Indicator[] {
@@ -63,6 +63,17 @@ function wheel({ wheel, mayDrive }: Seen): Indicator {
   if (wheel.mine) return make("good", words.wheelMine, words.wheelMineAbout);
   if (wheel.driver !== null) return make("plain", words.wheelOther(wheel.driver), words.wheelOtherAbout);
   return mayDrive ? make("plain", words.wheelFree, words.wheelFreeAbout) : make("plain", words.watching, words.watchingAbout);
+}
+
+/** Why the robot does not move, where no other indicator or banner says so. */
+const SHOWN_ELSEWHERE = ["none", "e-stop", "stop", "obstacle", "tilt"];
+
+function standing({ verdict }: State, { wheel }: Seen): Indicator {
+  const make = (level: Level): Indicator => ({ id: "standing", icon: "lost", level, text: words.standing, about: verdict?.reason ?? "" });
+  const stands = verdict?.motion === "stop" || verdict?.motion === "hold";
+  if (!stands || SHOWN_ELSEWHERE.includes(verdict.cause)) return make("off");
+  if (verdict.cause === "driver") return make(wheel.mine ? "warn" : "off");
+  return make("bad");
 }
 
 function link({ phase, delay_ms }: Seen): Indicator {

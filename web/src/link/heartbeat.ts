@@ -4,6 +4,8 @@ import type { Twist } from "./types";
 export const BEAT_MS = 50;
 /** A change is sent at once, but never faster than this: the server takes 60 messages a second. */
 const LEAST_GAP_MS = 20;
+/** With answers later than this nobody can steer: commands that wait somewhere would be obeyed when they come. */
+const LATE_MS = 200;
 export const STILL: Twist = { v: 0, w: 0 };
 
 const isStill = (twist: Twist) => twist.v === 0 && twist.w === 0;
@@ -18,6 +20,8 @@ export class Heartbeat {
   private sent_ms = -Infinity;
   private sentAt = new Map<number, number>(); // of what is not acknowledged yet
   private timer = 0;
+  /** Answers came late, and the driver has not let go since. */
+  private isLate = false;
 
   /** Numbers go up from a random one, so that two pages are told apart in a recording. */
   constructor(
@@ -61,8 +65,11 @@ export class Heartbeat {
   }
 
   private beat(): void {
+    if (this.waiting_ms() > LATE_MS) this.isLate = true;
+    else if (isStill(this.wish)) this.isLate = false;
+    const wish = this.isLate ? STILL : this.wish;
     const seq = ++this.seq;
-    if (!this.send(JSON.stringify({ seq, v: this.wish.v, w: this.wish.w }))) return;
+    if (!this.send(JSON.stringify({ seq, v: wish.v, w: wish.w }))) return;
     this.sent_ms = this.now_ms();
     this.sentAt.set(seq, this.sent_ms);
     if (this.sentAt.size > 200) this.sentAt.delete(this.sentAt.keys().next().value!);

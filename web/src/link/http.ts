@@ -18,8 +18,8 @@ const PATIENCE_MS = 8000;
 type Method = "GET" | "POST" | "PATCH" | "DELETE";
 
 /** Asks the robot; gives the JSON of its answer, or undefined when that has none. Throws Refused or NoAnswer. */
-export async function ask<T>(method: Method, path: string, body?: unknown): Promise<T> {
-  const answer = await request(method, path, body);
+export async function ask<T>(method: Method, path: string, body?: unknown, patience_ms = PATIENCE_MS): Promise<T> {
+  const answer = await request(method, path, body, patience_ms);
   if (answer.status === 204) return undefined as T;
   const text = await answer.text().catch(() => "");
   const json = parse(text);
@@ -27,13 +27,14 @@ export async function ask<T>(method: Method, path: string, body?: unknown): Prom
   return json as T;
 }
 
-async function request(method: Method, path: string, body: unknown): Promise<Response> {
+async function request(method: Method, path: string, body: unknown, patience_ms: number): Promise<Response> {
   const patience = new AbortController();
-  const timer = setTimeout(() => patience.abort(), PATIENCE_MS);
+  const timer = setTimeout(() => patience.abort(), patience_ms);
   try {
     return await fetch(path, {
       method,
       cache: "no-store",
+      keepalive: true, // a STOP goes out though the page is closed
       signal: patience.signal,
       ...(body === undefined ? {} : { headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) }),
     });

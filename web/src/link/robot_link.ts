@@ -12,6 +12,9 @@ export type Phase = "connecting" | "up" | "lost" | "stranger";
 const LOOK_EVERY_MS = 200;
 const SILENT_AFTER_MS = 1000;
 const DEAD_AFTER_MS = 3000;
+/** STOP is asked for again and again, each time with little patience. */
+const STOP_FOR_MS = 20000;
+const STOP_PATIENCE_MS = 1500;
 const NOBODY: Wheel = { mine: false, driver: null };
 
 /** What comes down the control socket, see wire.md. */
@@ -38,6 +41,8 @@ export class RobotLink {
   readonly motor_ms = signal<number | null>(null);
   /** Whether this page would drive if it could: the wheel is taken when it is free. */
   readonly wantsWheel = signal(true);
+  /** STOP was pressed, and the robot has not said that it heard. */
+  readonly isStopUnheard = signal(false);
   readonly clock = new RobotClock();
   /** Told of what the robot would not do, in its words; of null when it could not be asked. */
   onTrouble: (why: string | null) => void = () => {};
@@ -50,6 +55,10 @@ export class RobotLink {
     closed: () => this.letGo(),
   });
   private readonly states = new LiveSocket("state", {
+    opened: () => {
+      this.heard_ms = performance.now();
+      void this.ask_who();
+    },
     text: (message) => this.hearState(message as State),
     closed: () => void this.ask_who(),
   });
@@ -66,6 +75,7 @@ export class RobotLink {
     document.addEventListener("visibilitychange", () => this.wake());
     window.addEventListener("online", () => this.reconnect());
     window.addEventListener("pagehide", () => this.heartbeat.stop());
+    window.addEventListener("pageshow", (event) => event.persisted && this.reconnect());
     void this.ask_who();
   }
 
@@ -83,7 +93,26 @@ export class RobotLink {
   stop(): void {
     this.heartbeat.want({ v: 0, w: 0 });
     this.control.send('{"stop":true}');
-    void this.asked("POST", "api/v1/stop");
+    void this.stopUntilHeard(performance.now() + STOP_FOR_MS);
+  }
+
+  /** Who pressed STOP while the network was away means it still. */
+  private async stopUntilHeard(until_ms: number): Promise<void> {
+    for (;;) {
+      try {
+        await ask("POST", "api/v1/stop", undefined, STOP_PATIENCE_MS);
+        this.isStopUnheard.value = false;
+        return;
+      } catch (error) {
+        if (error instanceof Refused || performance.now() > until_ms) {
+          this.isStopUnheard.value = false;
+          return this.onTrouble(error instanceof Refused ? error.message : null);
+        }
+      }
+      this.isStopUnheard.value = true;
+      this.control.send('{"stop":true}');
+      await new Promise((resolve) => setTimeout(resolve, LOOK_EVERY_MS));
+    }
   }
 
   takeWheel(fromSomebody: boolean): void {

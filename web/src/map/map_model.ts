@@ -29,6 +29,7 @@ class MapModel {
   private readonly users = signal(0);
   private readonly watches = new Set<TileWatch>();
   private readonly pending = new Set<string>();
+  private retry = 0;
   private isFlushing = false;
   private wasLost = false;
   private hand = this.makeHand();
@@ -99,7 +100,15 @@ class MapModel {
   private hear(answer: Answer): void {
     if (answer.kind === "news") this.hearNews(answer.news);
     else if (answer.kind === "picture") this.hearPicture(answer);
-    else setTimeout(() => this.socket.reconnect(), AGAIN_AFTER_MS); // what could not be read is sent again
+    else this.retry ||= window.setTimeout(() => this.tryAgain(), AGAIN_AFTER_MS);
+  }
+
+  /** What could not be read is sent again, what could not be painted is painted again. */
+  private tryAgain(): void {
+    this.retry = 0;
+    this.pending.clear();
+    this.spoilAll();
+    this.socket.reconnect();
   }
 
   private hearNews(news: MapNews): void {

@@ -128,7 +128,7 @@ export class Scene {
     // For who has no pointer: the arrows move the map under the cross in its middle.
     element.addEventListener("keydown", (event) => {
       if (event.target !== element) return;
-      if (event.key === "Enter" || event.key === " ") useToolAt(this.middle);
+      if (event.key === "Enter") useToolAt(this.middle);
       else if (event.key.startsWith("Arrow")) follows.value = false;
     });
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
 import { strings } from "../strings";
 import { Icon, type IconName } from "./icons";
 import { layers, LAYERS, switchLayer } from "./layers";
@@ -45,10 +46,15 @@ function LayerMenu() {
       <legend>{strings.map.layers}</legend>
       {LAYERS.map((layer) => (
         <label key={layer}>
-          <input type="checkbox" checked={layers.value[layer]} onChange={(event) => switchLayer(layer, event.currentTarget.checked)} />
+          <input type="checkbox" checked={layers.value[layer]} onChange={(event) => switchLayer(layer, event.currentTarget.checked)} onClick={leave} />
           {strings.map.layerNames[layer]}
         </label>
       ))}
     </fieldset>
   );
+}
+
+/** After a click of the mouse the space bar is to stop the robot again; who goes by keys keeps his place. */
+function leave(event: JSX.TargetedMouseEvent<HTMLInputElement>): void {
+  if (event.detail > 0) event.currentTarget.blur();
 }

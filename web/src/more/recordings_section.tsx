@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+import { computed } from "@preact/signals";
 import type { Recording } from "../link/types";
 import { robot } from "../robot";
 import { strings } from "../strings";
@@ -15,10 +16,12 @@ const pathOf = (name: string) => `api/v1/recordings/${encodeURIComponent(name)}`
 /** The newest first; those whose name tells no time after them. */
 const order = (a: File, b: File) => (recordedAt(b.name)?.getTime() ?? 0) - (recordedAt(a.name)?.getTime() ?? 0) || b.name.localeCompare(a.name);
 
+/** The file that is being written. */
+const written = computed(() => (robot.state.value?.recording?.active ? robot.state.value.recording.file : null));
+
 export function RecordingsSection() {
   const words = strings.more.recordings;
   const { value, trouble, again } = useAsked<{ recordings: File[]; recording: Recording }>("api/v1/recordings", 3000);
-  const now = robot.state.value?.recording;
   const files = value?.recordings.slice().sort(order) ?? [];
   const remove = async (name: string) => {
     await robot.asked("DELETE", pathOf(name));
@@ -27,20 +30,21 @@ export function RecordingsSection() {
   return (
     <>
       <p class="lead">{words.what}</p>
-      <Running recording={now ?? null} onAsked={again} />
+      <Running onAsked={again} />
       <Part title={words.files}>
         <Trouble text={trouble} />
         {value && files.length === 0 && <p class="note">{words.none}</p>}
         <ul class="cards">
-          {files.map((file) => <FileCard key={file.name} file={file} isWritten={now?.active === true && now.file === file.name} onDelete={() => void remove(file.name)} />)}
+          {files.map((file) => <FileCard key={file.name} file={file} isWritten={written.value === file.name} onDelete={() => void remove(file.name)} />)}
         </ul>
       </Part>
     </>
   );
 }
 
-function Running({ recording, onAsked }: { recording: Recording; onAsked: () => void }) {
+function Running({ onAsked }: { onAsked: () => void }) {
   const words = strings.more.recordings;
+  const recording = robot.state.value?.recording ?? null;
   const isWanted = recording?.active === true && recording.asked_for;
   const ask = async () => {
     await robot.asked(isWanted ? "DELETE" : "POST", "api/v1/recordings");

@@ -12,6 +12,7 @@ const latched = computed(() => {
 /** What stands in the way of everything: no connection, or a stop. */
 export function Banner() {
   const phase = robot.phase.value;
+  if (robot.isStopUnheard.value) return <p class="banner banner-bad" role="alert">{strings.link.stopUnheard}</p>;
   if (phase === "connecting") return <p class="banner banner-wait" role="status">{strings.link.connecting}</p>;
   if (phase === "lost") return <p class="banner banner-bad" role="alert">{strings.link.lost}</p>;
   if (phase === "stranger" || latched.value === null) return null;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+import { OLD_SCAN_MS } from "../../drive/radar";
 import { robot } from "../../robot";
 import type { Pen } from "./pen";
 
@@ -9,7 +10,7 @@ const NEAR_PX = 100; // a metre
 /** What the lidar sees now, from where the robot is. */
 export function scanOverlay({ context, inks, at, pixelsPerMetre }: Pen): void {
   const { pose, scan } = robot.state.value ?? {};
-  if (!pose || !scan) return;
+  if (!pose || !scan || (robot.clock.age_ms(scan.t_s, performance.now()) ?? 0) > OLD_SCAN_MS) return;
   context.fillStyle = inks.scan;
   const dot_px = pixelsPerMetre < NEAR_PX ? DOT_PX : NEAR_DOT_PX;
   scan.ranges_cm.forEach((range_cm, degree) => {
