@@ -36,9 +36,9 @@ ControlChannel::~ControlChannel() { wheel_.leave(number_); }
 std::optional<WsClosing> ControlChannel::take(const WsMessage& message, SteadyTime now) {
   if (message.opcode != WsOpcode::kText) return WsClosing{kNotUnderstood, "messages here are text"};
   const auto said = parse_control(message.payload);
-  // A stop counts however much else is said.
-  if (!std::holds_alternative<StopWish>(said) && !rate_.pass(Time(now.time_since_epoch()))) {
+  if (!rate_.pass(Time(now.time_since_epoch()))) {
     events_.add("server.control_messages_dropped");
+    if (std::holds_alternative<StopWish>(said)) ports_.stops.push(client_.name);  // counts all the same
     return ++dropped_ > kMostDropped ? std::optional(WsClosing{kTooMuch, "too many messages"}) : std::nullopt;
   }
   wheel_.touch(number_, now);

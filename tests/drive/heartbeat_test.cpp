@@ -190,5 +190,17 @@ TEST(Heartbeat, ADriverWhoSaysThatHeIsGoneIsLostAtOnce) {
   EXPECT_TRUE(d.heartbeat.refused().empty());
 }
 
+TEST(Heartbeat, WhoCommandsAfterADriverLeftBeginsAnew) {
+  Driver d = driving();
+  d.heartbeat.driver_left();
+  d.ms += 10;
+  EXPECT_EQ(d.send(kForward), State::kUnsteady)
+      << "the next one's command goes on in order, and is not obeyed";
+  EXPECT_EQ(d.heartbeat.wanted(), kStand);
+  d.ms += 50;
+  EXPECT_EQ(d.send_for(600, kForward), State::kHeld);
+  EXPECT_EQ(d.send(kStand), State::kAlive);
+}
+
 }  // namespace
 }  // namespace dynslam

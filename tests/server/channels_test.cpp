@@ -174,6 +174,24 @@ TEST_F(ControlTest, AForgottenWheelIsFreeForAll) {
   EXPECT_FALSE(wheel.holder(0).driver);
 }
 
+TEST_F(ControlTest, TakesAStopHoweverMuchElseIsSaid) {
+  const auto a = enter("Ada");
+  for (int n = 0; n < 200; ++n) say(*a, "{\"seq\":" + std::to_string(n) + ",\"v\":1,\"w\":0}");
+  EXPECT_FALSE(ports.stops.try_pop());
+  say(*a, R"({"stop":true})");
+  EXPECT_EQ(ports.stops.try_pop(), "Ada");
+}
+
+TEST_F(ControlTest, WhoTakesOverBeginsAnewHoweverSoonHeCommands) {
+  const auto a = enter("Ada"), b = enter("Bob");
+  say(*a, R"({"lease":"acquire"})");
+  say(*a, R"({"seq":1,"v":0.5,"w":0})");
+  EXPECT_FALSE(ports.driver_left);
+  say(*b, R"({"lease":"take_over"})");
+  say(*b, R"({"seq":1,"v":0.5,"w":0})");
+  EXPECT_TRUE(ports.driver_left) << "though his command came before the robot looked";
+}
+
 TEST(Wheel, LetsARobotDriveItselfUntilSomebodySteers) {
   Ports ports;
   SteppedClock clock{time_at_s(10)};

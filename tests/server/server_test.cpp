@@ -199,7 +199,11 @@ class WsSessionTest : public testing::Test {
     EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
     mine = ends[0];
     its = ends[1];
-    session = std::thread([this] { WsSession(its, channel).run(stopping); });
+    session = std::thread([this] {
+      WsSession serves(its, channel);
+      serves.run(stopping);
+      serves.farewell();
+    });
   }
   ~WsSessionTest() override {
     shutdown(mine, SHUT_RDWR);
