@@ -22,7 +22,8 @@ function mockGamepad() {
 }
 
 describe("a thumb", () => {
-  it("drives ahead, steers, and stops when it lifts", async () => {
+  /** A page whose stick is pushed ahead, and where it was put down. */
+  const pushed = async () => {
     const page = await its.open("phone");
     await ready(page, its.robot);
     const finger = await Finger.of(page);
@@ -30,6 +31,11 @@ describe("a thumb", () => {
     await finger.down(x, y);
     await finger.move(x, y - 30);
     await drives(its.robot);
+    return { page, finger, x, y };
+  };
+
+  it("drives ahead, steers, and stops when it lifts", async () => {
+    const { page, finger, x, y } = await pushed();
     assert.ok((await speed(its.robot)) > 0, "up is ahead");
     const drawn = await page.locator(".nipple .back").boundingBox();
     assert.ok(Math.hypot(drawn.x + drawn.width / 2 - x, drawn.y + drawn.height / 2 - y) < 5, "the stick is drawn under the thumb");
@@ -41,13 +47,7 @@ describe("a thumb", () => {
   });
 
   it("drives back", async () => {
-    const page = await its.open("phone");
-    await ready(page, its.robot);
-    const finger = await Finger.of(page);
-    const { x, y } = await middle(page.locator(".joystick"));
-    await finger.down(x, y);
-    await finger.move(x, y - 30);
-    await drives(its.robot);
+    const { finger, x, y } = await pushed();
     await finger.move(x, y + 30);
     await until(async () => (await speed(its.robot)) < -0.05, "the robot to drive back");
     await finger.up();
@@ -55,25 +55,13 @@ describe("a thumb", () => {
   });
 
   it("whose touch the system takes away lets go", async () => {
-    const page = await its.open("phone");
-    await ready(page, its.robot);
-    const finger = await Finger.of(page);
-    const { x, y } = await middle(page.locator(".joystick"));
-    await finger.down(x, y);
-    await finger.move(x, y - 40);
-    await drives(its.robot);
+    const { finger } = await pushed();
     await finger.touch("touchCancel", []);
     await stands(its.robot);
   });
 
   it("lets go when the screen is turned", async () => {
-    const page = await its.open("phone");
-    await ready(page, its.robot);
-    const finger = await Finger.of(page);
-    const { x, y } = await middle(page.locator(".joystick"));
-    await finger.down(x, y);
-    await finger.move(x, y - 40);
-    await drives(its.robot);
+    const { page, finger, x, y } = await pushed();
     await page.setViewportSize({ width: 844, height: 390 });
     await stands(its.robot);
     await finger.move(x, y - 45);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import { robot } from "../robot";
 import { strings } from "../strings";
-import { Icon } from "./icons";
+import { Icon } from "../ui/icons";
 import { draft, dropDraft, maySend, resetGoal, sendDraft, tool } from "./tools";
 
 const TURN_RAD = Math.PI / 12;

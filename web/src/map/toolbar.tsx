@@ -2,7 +2,7 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { strings } from "../strings";
-import { Icon, type IconName } from "./icons";
+import { Icon, type IconName } from "../ui/icons";
 import { layers, LAYERS, switchLayer } from "./layers";
 import { savePicture } from "./save_picture";
 import { follows, maySend, takeTool, tool } from "./tools";
@@ -23,7 +23,7 @@ export function Toolbar({ centre, zoomBy }: Actions) {
         <ToolButton icon="centre" title={words.centre} onClick={centre} />
         <ToolButton icon="zoomIn" title={words.zoomIn} onClick={() => zoomBy(1)} />
         <ToolButton icon="zoomOut" title={words.zoomOut} onClick={() => zoomBy(-1)} />
-        {maySend.value && <ToolButton icon="goal" title={words.goTool} isOn={tool.value === "goal"} onClick={() => takeTool("goal")} />}
+        {maySend.value && <ToolButton icon="flag" title={words.goTool} isOn={tool.value === "goal"} onClick={() => takeTool("goal")} />}
         <ToolButton icon="measure" title={words.measure} isOn={tool.value === "measure"} onClick={() => takeTool("measure")} />
         <ToolButton icon="layers" title={words.layers} isOn={isOpen.value} onClick={() => (isOpen.value = !isOpen.value)} />
         <ToolButton icon="save" title={words.save} onClick={() => void savePicture()} />

@@ -17,6 +17,16 @@ const PATHS = {
   power: "M4 17a8.5 8.5 0 1 1 16 0M12 14l4-5",
   pose: "M12 3v4M12 17v4M3 12h4M17 12h4M12 8.5a3.5 3.5 0 1 0 0 7 3.5 3.5 0 0 0 0-7z",
   lost: "M9 9a3 3 0 1 1 4.5 2.600c-1 .6-1.5 1.2-1.5 2.400M12 17.5v.01M12 2.5a9.5 9.5 0 1 0 0 19 9.5 9.5 0 0 0 0-19z",
+  follow: "M12 3v3M12 18v3M3 12h3M18 12h3M6 12a6 6 0 1 0 12 0 6 6 0 1 0-12 0M10 12a2 2 0 1 0 4 0 2 2 0 1 0-4 0",
+  centre: "M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5M12 8l4 8-4-2-4 2z",
+  zoomIn: "M12 5v14M5 12h14",
+  zoomOut: "M5 12h14",
+  flag: "M6 21V4M6 4h12l-3 4 3 4H6",
+  measure: "M3 16 16 3l5 5L8 21zM7 12l2 2M10 9l3 3M13 6l2 2",
+  layers: "M12 4 3 9l9 5 9-5zM3 14l9 5 9-5",
+  save: "M12 4v11M7 10l5 5 5-5M4 20h16",
+  turnLeft: "M5 5v5h5M5.5 10a7 7 0 1 1-.5 5",
+  turnRight: "M19 5v5h-5M18.5 10a7 7 0 1 0 .5 5",
   record: "M12 7a5 5 0 1 0 0 10 5 5 0 0 0 0-10z",
 };
 export type IconName = keyof typeof PATHS;
