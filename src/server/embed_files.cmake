@@ -10,14 +10,17 @@ foreach(file IN LISTS FILES)
   add_entry(texts "${file}" "R\"file(${text})file\"")
 endforeach()
 
+# Bytes by the one: compilers need not take strings as long as these.
 set(page "")
+set(bytes "")
+set(number 0)
 foreach(file IN LISTS PAGE)
   file(READ "${file}" hex HEX)
-  string(LENGTH "${hex}" digits)
-  math(EXPR bytes "${digits} / 2")
-  string(REGEX REPLACE "(................................)" "\\1\"\n    \"" hex "${hex}")
-  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" hex "${hex}")
-  add_entry(page "${file}" "{\"${hex}\", ${bytes}}")
+  string(REGEX REPLACE "(................................)" "\\1\n    " hex "${hex}")
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "'\\\\x\\1'," hex "${hex}")
+  string(APPEND bytes "constexpr char kBytes${number}[] = {\n    ${hex}};\n")
+  add_entry(page "${file}" "std::string_view(kBytes${number}, sizeof kBytes${number})")
+  math(EXPR number "${number} + 1")
 endforeach()
 
 file(WRITE "${OUT}" "// Made by embed_files.cmake.
@@ -32,7 +35,7 @@ namespace {
 
 constexpr EmbeddedFile kTexts[] = {
 ${texts}};
-// With one more at the end, as there may be none.
+${bytes}// With one more at the end, as there may be none.
 constexpr EmbeddedFile kPage[] = {
 ${page}    {}};
 
