@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "autopilot/order.h"
+#include "autopilot/status.h"
 #include "base/attitude.h"
 #include "base/battery_state.h"
 #include "base/cause.h"
@@ -81,6 +83,8 @@ struct Ports {
   /// A ray is believed this far (see SlamConfig); SLAM goes by it from the next scan on. At first, what the
   /// robot was made with.
   std::atomic<double> trusted_range_m{0.0};
+  BoundedQueue<Order> orders{16};  ///< to the autopilot; the last one holds
+  Latest<MapNotes> map_notes;      ///< what people drew on the map
 
   // From the robot.
   Latest<WorldState> world;
@@ -90,6 +94,7 @@ struct Ports {
   Latest<GraphView> graph;  ///< after each local map that was worked off
   Latest<Counters> slam_counters, graph_counters, drive_counters;  ///< about once a second
   Latest<RecordingState> recording;
+  Latest<AutopilotStatus> autopilot;
   Latest<DeviceHealth> lidar_health, imu_health, motors_health, camera_health, pins_health;
 };
 
