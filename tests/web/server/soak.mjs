@@ -34,8 +34,7 @@ const driving = (async () => {
   }
 })();
 
-// A sanitizer's own memory takes ten minutes until it has seen a thread of each kind often enough.
-const warm = Math.min(600, seconds / 3), samples = [];
+const warm = Math.min(60, seconds / 3), samples = [];
 for (let second = 1; second <= seconds && robot.process.exitCode === null; ++second) {
   await sleep(1000);
   samples.push(mib());
