@@ -64,7 +64,7 @@ TEST(Disturbance, TheWorldsScheduleCarriesTheRobotOff) {
   sim.go_to(0.99);
   EXPECT_EQ(sim.simulator->truth().kicks, 0);
   sim.go_to(1.01);
-  EXPECT_EQ(sim.simulator->truth().world_T_robot, world.world_T_start * Pose2(1.0, 0.5, 0.3));
+  EXPECT_EQ(sim.simulator->truth().world_T_robot, (world.world_T_start * Pose2{1.0, 0.5, 0.3}));
   sim.go_to(3.0);
   EXPECT_EQ(sim.simulator->truth().kicks, 1) << "there is nothing 100 m away";
   EXPECT_EQ(sim.simulator->truth().distance_m, 0.0) << "it did not drive there";
