@@ -2,10 +2,23 @@
 #include "grid/flood_fill.h"
 
 #include <bit>
+#include <cstddef>
+#include <cstring>
 #include <vector>
 
 namespace dynslam {
 namespace {
+
+/// The lowest bits of eight bytes, the first one's lowest: the product moves them all into its top byte.
+std::uint8_t low_bits(const std::uint8_t* bytes) {
+  std::uint64_t eight = 0;
+  if constexpr (std::endian::native == std::endian::little) {
+    std::memcpy(&eight, bytes, 8);
+  } else {
+    for (unsigned b = 0; b < 8; ++b) eight |= std::uint64_t{bytes[b]} << (8 * b);
+  }
+  return static_cast<std::uint8_t>(eight * 0x0102040810204080ULL >> 56);
+}
 
 std::uint64_t word_in_state(const Chunk& chunk, int row, CellState state) {
   std::uint8_t is_so[kChunkSide];
@@ -13,7 +26,7 @@ std::uint64_t word_in_state(const Chunk& chunk, int row, CellState state) {
     is_so[i] = cell_state(chunk.hit[row][i], chunk.miss[row][i]) == state ? 1 : 0;
   }
   std::uint64_t word = 0;
-  for (int i = 0; i < kChunkSide; ++i) word |= std::uint64_t{is_so[i]} << i;
+  for (int i = 0; i < kChunkSide; i += 8) word |= std::uint64_t{low_bits(is_so + i)} << i;
   return word;
 }
 
@@ -62,16 +75,19 @@ class Filler {
 
 }  // namespace
 
+CellTile cells_in_state(const Chunk& chunk, CellState state) {
+  CellTile cells;
+  for (int r = 0; r < kChunkSide; ++r) cells[static_cast<std::size_t>(r)] = word_in_state(chunk, r, state);
+  return cells;
+}
+
 CellBitmap cells_in_state(const GridSnapshot& map, CellState state) {
   CellBitmap cells;
   cells.reset(map.box());
   for (std::int32_t y = map.box().min.y; y <= map.box().max.y; ++y) {
     for (std::int32_t x = map.box().min.x; x <= map.box().max.x; ++x) {
       const Chunk* chunk = map.find({x, y});
-      if (!chunk) continue;
-      const int first_row = (y - map.box().min.y) * kChunkSide;
-      for (int r = 0; r < kChunkSide; ++r)
-        cells.row(first_row + r)[x - map.box().min.x] = word_in_state(*chunk, r, state);
+      if (chunk) cells.put({x, y}, cells_in_state(*chunk, state));
     }
   }
   return cells;

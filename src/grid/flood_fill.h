@@ -8,7 +8,8 @@
 
 namespace dynslam {
 
-/// The cells of a map that are in the given state. Linear in the map's chunks.
+/// The cells of a chunk, or of a whole map, that are in the given state. Linear in the map's chunks.
+CellTile cells_in_state(const Chunk& chunk, CellState state);
 CellBitmap cells_in_state(const GridSnapshot& map, CellState state);
 
 /// The cells of `through` that can be reached from `seeds` by steps up, down, left and right inside

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "grid/chunk.h"
+
+/// Sets of cells of three by three chunks, for what depends on a chunk and its surroundings.
+namespace dynslam {
+
+/// A row across three chunks side by side; bit b of a word is the cell b to the right of the word's first.
+using WideRow = std::array<std::uint64_t, 3>;
+using ChunkWindow = std::array<WideRow, 3 * kChunkSide>;
+
+inline constexpr int kMostDepth = 32;  ///< cells
+
+/// Leaves the cells that lie in some square of `side` cells all of which are in the set (the opening of the
+/// set by that square). Holds for the middle chunk and the cells beside it. REQUIRES: 1 <= side <=
+/// kMostDepth.
+void keep_deep(ChunkWindow& cells, int side);
+
+/// The cells of the middle chunk beside which (left, right, above, below) a cell is in the set.
+CellTile beside(const ChunkWindow& cells);
+
+}  // namespace dynslam

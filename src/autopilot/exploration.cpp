@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "autopilot/exploration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace dynslam {
+namespace {
+
+/// So many history cells are told of: the first of them is what matters.
+constexpr std::size_t kMostCells = 16;
+
+std::optional<double> route_to(const Vector2& point_map, const Reachability& reach) {
+  const std::optional<double> route_m = reach.route_m(point_map);
+  return route_m && std::isfinite(*route_m) ? route_m : std::nullopt;
+}
+
+/// The least rectangle of history cells that holds the map; both ends inside.
+struct HistoryBox {
+  CellIndex low, high;
+
+  explicit HistoryBox(const GridSnapshot& map)
+      : low(cell_at(cell_centre(first_cell(map.box().min), map.cell_size_m()), kHistoryCell_m)),
+        high(cell_at(cell_centre(last_cell(map.box()), map.cell_size_m()), kHistoryCell_m)) {}
+  static CellIndex last_cell(const ChunkBox& box) {
+    const CellIndex beyond = first_cell({box.max.x + 1, box.max.y + 1});
+    return {beyond.x - 1, beyond.y - 1};
+  }
+  bool contains(CellIndex c) const { return c.x >= low.x && c.x <= high.x && c.y >= low.y && c.y <= high.y; }
+  /// How many rings there are around a cell in it.
+  int rings(CellIndex c) const { return std::max({c.x - low.x, high.x - c.x, c.y - low.y, high.y - c.y}); }
+  /// The cells in the box that lie `ring` cells away, diagonals counting as one.
+  template <class Visit>
+  void for_each_on_ring(CellIndex middle, int ring, Visit&& visit) const {
+    const int left = middle.x - ring, right = middle.x + ring;
+    for (int y = std::max(low.y, middle.y - ring); y <= std::min(high.y, middle.y + ring); ++y) {
+      const bool is_whole_row = std::abs(y - middle.y) == ring;
+      if (!is_whole_row && left >= low.x) visit(CellIndex{left, y});
+      if (!is_whole_row && right <= high.x) visit(CellIndex{right, y});
+      if (!is_whole_row) continue;
+      for (int x = std::max(low.x, left); x <= std::min(high.x, right); ++x) visit(CellIndex{x, y});
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<Place> Exploration::places(Time now, const Vector2& robot_map,
+                                       std::span<const Frontier> frontiers, const VisitMap& visits,
+                                       const GridSnapshot& map, const Reachability& reach) {
+  left_out_ = {};
+  std::vector<Ranked> found;
+  if (robot_map.allFinite()) {
+    found = frontier_places(now, frontiers, reach);
+    if (found.empty()) found = unvisited_places(now, robot_map, visits, map, reach);
+    if (found.empty()) found = old_places(now, visits, reach);
+  }
+  stay_with_chosen(found);
+  const auto order = [](const Ranked& r) {
+    return std::make_tuple(r.rank, r.place.point_map.x(), r.place.point_map.y());
+  };
+  std::sort(found.begin(), found.end(),
+            [&](const Ranked& a, const Ranked& b) { return order(a) < order(b); });
+  std::vector<Place> places;
+  for (const Ranked& r : found) places.push_back(r.place);
+  if (!places.empty()) chosen_ = places.front();
+  return places;
+}
+
+std::vector<Exploration::Ranked> Exploration::frontier_places(Time now, std::span<const Frontier> frontiers,
+                                                              const Reachability& reach) {
+  std::vector<Ranked> found;
+  for (const Frontier& f : frontiers) {
+    if (!f.middle_map.allFinite() || is_left_alone(now, f)) continue;
+    const std::optional<Vector2> stand_map = reach.nearest(f.middle_map, config_.stand_within_m);
+    const std::optional<double> route_m = stand_map ? route_to(*stand_map, reach) : std::nullopt;
+    if (!route_m) {
+      ++left_out_.out_of_reach;
+      continue;
+    }
+    found.push_back({*route_m - config_.gain_weight * f.extent_m,
+                     {PlaceKind::kFrontier, f.middle_map, *stand_map, *route_m, f.extent_m}});
+  }
+  return found;
+}
+
+bool Exploration::is_left_alone(Time now, const Frontier& frontier) {
+  const TriedPlaces::Tried* tried = frontiers_.find(frontier.middle_map);
+  if (!tried) return false;
+  if (tried->tries >= config_.most_tries) {
+    ++left_out_.given_up;
+    return true;
+  }
+  if (tried->until <= now) return false;
+  ++left_out_.waiting;
+  left_out_.next = std::min(left_out_.next.value_or(tried->until), tried->until);
+  return true;
+}
+
+/// Ring by ring around the robot, until no cell farther out can be nearer by its route.
+std::vector<Exploration::Ranked> Exploration::unvisited_places(Time now, const Vector2& robot_map,
+                                                               const VisitMap& visits,
+                                                               const GridSnapshot& map,
+                                                               const Reachability& reach) const {
+  std::vector<Ranked> found;
+  const HistoryBox box(map);
+  if (map.box().empty() || robot_map.cwiseAbs().maxCoeff() >= kWorld_m) return found;
+  const CellIndex here = cell_at(robot_map, kHistoryCell_m);
+  if (!box.contains(here)) return found;
+  const auto look_at = [&](CellIndex cell) {
+    const Vector2 centre = cell_centre(cell, kHistoryCell_m);
+    if (map.state(cell_at(centre, map.cell_size_m())) != CellState::kFree || visits.last_visit(cell)) return;
+    const std::optional<double> route_m = route_to(centre, reach);
+    if (!route_m) return;
+    const TriedPlaces::Tried* tried = cells_.find(centre);
+    if (tried && tried->until > now) return;
+    found.push_back({*route_m, {PlaceKind::kUnvisited, centre, centre, *route_m, 0.0}});
+  };
+  for (int ring = 0; ring <= box.rings(here); ++ring) {
+    const double least_m = (ring - 0.5) * kHistoryCell_m;
+    const auto nearer = std::count_if(found.begin(), found.end(),
+                                      [&](const Ranked& r) { return r.place.route_m <= least_m; });
+    if (static_cast<std::size_t>(nearer) >= kMostCells) break;
+    box.for_each_on_ring(here, ring, look_at);
+  }
+  return found;
+}
+
+/// A cell counts as reached in the circle that fits into it.
+std::vector<Exploration::Ranked> Exploration::old_places(Time now, const VisitMap& visits,
+                                                         const Reachability& reach) const {
+  std::vector<Ranked> found;
+  for (const auto& [visit, cell] : visits.by_age()) {
+    if (now - visit < from_seconds(config_.revisit_after_s) || found.size() >= kMostCells) break;
+    const Vector2 centre = cell_centre(cell, kHistoryCell_m);
+    const TriedPlaces::Tried* tried = cells_.find(centre);
+    if (tried && tried->until > now) continue;
+    const std::optional<Vector2> stand_map = reach.nearest(centre, 0.5 * kHistoryCell_m);
+    const std::optional<double> route_m = stand_map ? route_to(*stand_map, reach) : std::nullopt;
+    if (!route_m) continue;
+    found.push_back(
+        {static_cast<double>(found.size()), {PlaceKind::kOld, centre, *stand_map, *route_m, 0.0}});
+  }
+  return found;
+}
+
+/// The middle of a frontier moves while part of it is seen: what is nearest to where it was is the same one.
+void Exploration::stay_with_chosen(std::vector<Ranked>& found) const {
+  if (!chosen_ || chosen_->kind == PlaceKind::kOld) return;
+  Ranked* nearest = nullptr;
+  double least_m = 0.5 * config_.most_extent_m;
+  for (Ranked& r : found) {
+    const double distance_m = (r.place.point_map - chosen_->point_map).norm();
+    if (r.place.kind != chosen_->kind || distance_m >= least_m) continue;
+    least_m = distance_m;
+    nearest = &r;
+  }
+  if (nearest) nearest->rank -= config_.keep_m;
+}
+
+/// Cells are never given up: an old one that somebody stands in today is one to see in half an hour.
+void Exploration::failed(Time now, const Place& place) {
+  if (!place.point_map.allFinite()) return;
+  chosen_.reset();
+  const Duration retry = from_seconds(config_.retry_after_s);
+  if (place.kind == PlaceKind::kFrontier) {
+    frontiers_.add(now, place.point_map, retry);
+  } else if (cells_.add(now, place.point_map, retry) >= config_.most_tries) {
+    cells_.rest(now, place.point_map, from_seconds(config_.revisit_after_s));
+  }
+}
+
+void Exploration::reached(Time now, const Place& place) {
+  if (place.kind != PlaceKind::kOld) return failed(now, place);
+  chosen_.reset();
+  if (place.point_map.allFinite()) cells_.rest(now, place.point_map, from_seconds(config_.retry_after_s));
+}
+
+}  // namespace dynslam

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "autopilot/exploration_config.h"
+#include "autopilot/frontier.h"
+#include "autopilot/tried_places.h"
+#include "autopilot/visit_map.h"
+#include "grid/chunked_grid.h"
+
+namespace dynslam {
+
+/// In the order of what they are worth.
+enum class PlaceKind { kFrontier, kUnvisited, kOld };
+
+/// A place of interest: something to be seen, and where to see it from.
+struct Place {
+  PlaceKind kind = PlaceKind::kFrontier;
+  Vector2 point_map;     ///< what is to be seen
+  Vector2 stand_map;     ///< where to see it from; there is a route
+  double route_m = 0.0;  ///< how long it is
+  double gain = 0.0;     ///< metres of frontier to be seen
+};
+
+/// What exploring asks of a planner.
+struct Reachability {
+  /// The length of the route to a point; none: there is no route.
+  std::function<std::optional<double>(const Vector2& point_map)> route_m;
+  /// Of the points that there is a route to the nearest to a point; none: none is so near.
+  std::function<std::optional<Vector2>(const Vector2& point_map, double within_m)> nearest;
+};
+
+/// Frontiers that the last choice left out.
+struct LeftOut {
+  std::size_t waiting = 0;       ///< tried in vain, to be tried again
+  std::size_t given_up = 0;      ///< tried in vain too often
+  std::size_t out_of_reach = 0;  ///< no route to where it would be seen
+  std::optional<Time> next;      ///< when the first of those that wait may be tried again
+};
+
+/// Chooses where to go next to learn the most (thesis 6.6): to frontiers first, then to history cells where
+/// the robot never was, then to those where it was longest ago. What was tried in vain is left alone for a
+/// while; frontiers that stay after `most_tries` are given up, so that what cannot be seen does not attract
+/// for ever. Pure; one thread.
+class Exploration {
+ public:
+  explicit Exploration(const ExplorationConfig& config = {})
+      : config_(config), frontiers_(config.same_place_m), cells_(config.same_place_m) {}
+
+  /// Places of the most worthy kind of which there are any, best first; none for a robot that is nowhere.
+  /// Frontiers: the way, less what is to be seen there; the one that was first the last time stays first
+  /// unless another is clearly better. Cells never visited: the nearest few. Old ones: the oldest few.
+  std::vector<Place> places(Time now, const Vector2& robot_map, std::span<const Frontier> frontiers,
+                            const VisitMap& visits, const GridSnapshot& map, const Reachability& reach);
+
+  /// There was no way to it, whatever the planner said.
+  void failed(Time now, const Place& place);
+  /// The robot stands there. What is still a place of interest after that was tried in vain.
+  void reached(Time now, const Place& place);
+
+  /// As of the last call of places(). Exploring is over when there is no place and `next` is none.
+  const LeftOut& left_out() const { return left_out_; }
+
+ private:
+  /// The lower, the better.
+  struct Ranked {
+    double rank;
+    Place place;
+  };
+  std::vector<Ranked> frontier_places(Time now, std::span<const Frontier> frontiers,
+                                      const Reachability& reach);
+  std::vector<Ranked> unvisited_places(Time now, const Vector2& robot_map, const VisitMap& visits,
+                                       const GridSnapshot& map, const Reachability& reach) const;
+  std::vector<Ranked> old_places(Time now, const VisitMap& visits, const Reachability& reach) const;
+  bool is_left_alone(Time now, const Frontier& frontier);
+  void stay_with_chosen(std::vector<Ranked>& found) const;
+
+  ExplorationConfig config_;
+  TriedPlaces frontiers_, cells_;
+  std::optional<Place> chosen_;
+  LeftOut left_out_;
+};
+
+}  // namespace dynslam

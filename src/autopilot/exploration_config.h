@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/config_field.h"
+
+namespace dynslam {
+
+/// Section [exploration] of the configuration: what counts as a frontier, and which one is gone to.
+struct ExplorationConfig {
+  double least_depth_m = 0.25;
+  double least_length_m = 0.4;
+  double least_extent_m = 0.3;
+  double most_extent_m = 3.0;
+  double merge_within_m = 0.2;
+  double stand_within_m = 0.8;
+  double gain_weight = 1.0;
+  double keep_m = 1.5;
+  double same_place_m = 0.5;
+  double retry_after_s = 60.0;
+  int most_tries = 3;
+  double revisit_after_s = 1800.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit(Field{"least_depth_m", "the unknown counts where a square of this side fits into it", 0.0, 1.0},
+          self.least_depth_m);
+    visit(Field{"least_length_m", "a frontier has cells for a line of this length", 0.0, 10.0},
+          self.least_length_m);
+    visit(Field{"least_extent_m", "the diagonal of the rectangle around a frontier is at least this", 0.0,
+                10.0},
+          self.least_extent_m);
+    visit(Field{"most_extent_m", "and at most this: longer ones are several", 0.5, 100.0},
+          self.most_extent_m);
+    visit(Field{"merge_within_m", "frontiers this near to each other are one", 0.0, 2.0},
+          self.merge_within_m);
+    visit(Field{"stand_within_m", "a frontier is seen from this far, where it cannot be approached more", 0.0,
+                5.0},
+          self.stand_within_m);
+    visit(Field{"gain_weight", "how many metres of way a metre of frontier is worth", 0.0, 100.0},
+          self.gain_weight);
+    visit(Field{"keep_m", "another frontier is chosen when it is better by this many metres of way", 0.0,
+                100.0},
+          self.keep_m);
+    visit(Field{"same_place_m", "what was tried this near counts as tried", 0.05, 5.0}, self.same_place_m);
+    visit(Field{"retry_after_s", "a place tried in vain is left alone for so long", 0.0, 86400.0},
+          self.retry_after_s);
+    visit(Field{"most_tries", "after so many it is given up", 1, 1000}, self.most_tries);
+    visit(Field{"revisit_after_s", "where the robot was so long ago, it goes again", 0.0, 1e6},
+          self.revisit_after_s);
+  }
+};
+
+}  // namespace dynslam

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "autopilot/frontier_map.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "grid/flood_fill.h"
+
+namespace dynslam {
+namespace {
+
+constexpr CellTile kClear{};
+
+constexpr CellTile full_tile() {
+  CellTile tile{};
+  tile.fill(~std::uint64_t{0});
+  return tile;
+}
+constexpr CellTile kFull = full_tile();
+
+ChunkBox box_of_both(const ChunkBox& a, const ChunkBox& b) {
+  ChunkBox both = a;
+  if (!b.empty()) both.include(b.min), both.include(b.max);
+  return both;
+}
+
+/// The chunks that have cells within `reach` of a cell in which the tiles differ.
+ChunkBox chunks_near_difference(ChunkIndex index, const CellTile& a, const CellTile& b, int reach) {
+  std::uint64_t columns = 0;
+  int low = kChunkSide, high = -1;
+  for (int r = 0; r < kChunkSide; ++r) {
+    const std::uint64_t differs = a[static_cast<std::size_t>(r)] ^ b[static_cast<std::size_t>(r)];
+    if (differs == 0) continue;
+    columns |= differs;
+    low = std::min(low, r);
+    high = r;
+  }
+  if (columns == 0) return {};
+  const CellIndex first = first_cell(index);
+  const int left = std::countr_zero(columns), right = kChunkSide - 1 - std::countl_zero(columns);
+  return {chunk_of({first.x + left - reach, first.y + low - reach}),
+          chunk_of({first.x + right + reach, first.y + high + reach})};
+}
+
+bool is_clear(const CellTile& tile) {
+  return std::all_of(tile.begin(), tile.end(), [](std::uint64_t row) { return row == 0; });
+}
+
+CellTile common(const CellTile& a, const CellTile& b) {
+  CellTile tile;
+  for (std::size_t r = 0; r < tile.size(); ++r) tile[r] = a[r] & b[r];
+  return tile;
+}
+
+}  // namespace
+
+std::size_t FrontierMap::update(const GridSnapshot& map) {
+  if (map.cell_size_m() != last_.cell_size_m()) {
+    known_.clear();
+    cells_.clear();
+    last_ = {};
+  }
+  depth_ = std::clamp(static_cast<int>(std::ceil(config_.least_depth_m / map.cell_size_m() - 1e-9)), 1,
+                      kMostDepth);
+  std::set<ChunkIndex> due;
+  const ChunkBox box = box_of_both(map.box(), last_.box());
+  for (std::int32_t y = box.min.y; y <= box.max.y; ++y) {
+    for (std::int32_t x = box.min.x; x <= box.max.x; ++x) {
+      const Chunk* chunk = map.find({x, y});
+      if (chunk != last_.find({x, y})) look_at({x, y}, chunk, due);
+    }
+  }
+  for (const ChunkIndex index : due) redo(index);
+  last_ = map;
+  return due.size();
+}
+
+/// Most looks make cells surer of what they are: then nothing is due.
+void FrontierMap::look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIndex>& due) {
+  const auto at = known_.find(index);
+  const Known before = at == known_.end() ? Known{kClear, kFull} : at->second;
+  const Known now =
+      chunk ? Known{cells_in_state(*chunk, CellState::kFree), cells_in_state(*chunk, CellState::kUnknown)}
+            : Known{kClear, kFull};
+  if (now.free != before.free) due.insert(index);
+  const ChunkBox near = chunks_near_difference(index, now.unknown, before.unknown, depth_);
+  for (std::int32_t y = near.min.y; y <= near.max.y; ++y) {
+    for (std::int32_t x = near.min.x; x <= near.max.x; ++x) due.insert({x, y});
+  }
+  if (chunk) {
+    known_[index] = now;
+  } else {
+    known_.erase(index);
+  }
+}
+
+ChunkWindow FrontierMap::unknown_around(ChunkIndex index) const {
+  ChunkWindow window;
+  for (int dy = 0; dy < 3; ++dy) {
+    for (int dx = 0; dx < 3; ++dx) {
+      const auto known = known_.find({index.x + dx - 1, index.y + dy - 1});
+      const CellTile& tile = known == known_.end() ? kFull : known->second.unknown;
+      for (int r = 0; r < kChunkSide; ++r)
+        window[static_cast<std::size_t>(dy * kChunkSide + r)][static_cast<std::size_t>(dx)] =
+            tile[static_cast<std::size_t>(r)];
+    }
+  }
+  return window;
+}
+
+void FrontierMap::redo(ChunkIndex index) {
+  cells_.erase(index);
+  const auto known = known_.find(index);
+  if (known == known_.end() || is_clear(known->second.free)) return;
+  ChunkWindow unknown = unknown_around(index);
+  if (is_clear(common(known->second.free, beside(unknown)))) return;
+  keep_deep(unknown, depth_);
+  const CellTile cells = common(known->second.free, beside(unknown));
+  if (!is_clear(cells)) cells_[index] = cells;
+}
+
+bool FrontierMap::is_frontier(CellIndex c) const {
+  const auto at = cells_.find(chunk_of(c));
+  return at != cells_.end() &&
+         (at->second[static_cast<std::size_t>(c.y & kChunkMask)] >> (c.x & kChunkMask) & 1U) != 0;
+}
+
+std::vector<CellIndex> FrontierMap::cells() const {
+  std::vector<CellIndex> cells;
+  for (auto first = cells_.begin(); first != cells_.end();) {
+    const auto last = cells_.lower_bound({std::numeric_limits<std::int32_t>::min(), first->first.y + 1});
+    for (int r = 0; r < kChunkSide; ++r) {
+      for (auto at = first; at != last; ++at) {
+        const CellIndex corner = first_cell(at->first);
+        for (std::uint64_t row = at->second[static_cast<std::size_t>(r)]; row != 0; row &= row - 1)
+          cells.push_back({corner.x + std::countr_zero(row), corner.y + r});
+      }
+    }
+    first = last;
+  }
+  return cells;
+}
+
+}  // namespace dynslam

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "autopilot/deep_cells.h"
+#include "autopilot/exploration_config.h"
+#include "autopilot/frontier.h"
+#include "grid/chunked_grid.h"
+
+namespace dynslam {
+
+/// Keeps up with a map which of its cells are frontier cells: free cells beside (left, right, above, below)
+/// the unknown (thesis 6.6). The unknown counts where a square of `least_depth_m` fits into it: the cells
+/// that are missed along walls and between beams are no frontiers, and nowhere that the robot could go.
+/// Chunks that do not exist are unknown.
+///
+/// Memory: 1.1 KB a chunk, and the snapshot that was seen last. One thread.
+class FrontierMap {
+ public:
+  explicit FrontierMap(const ExplorationConfig& config = {}) : config_(config) {}
+
+  /// Looks at what changed since the last call, and around it. Returns how many chunks were done anew; a map
+  /// of other cells begins anew.
+  std::size_t update(const GridSnapshot& map);
+
+  bool is_frontier(CellIndex c) const;
+  /// All frontier cells, row by row.
+  std::vector<CellIndex> cells() const;
+  /// Where they make up something worth going to.
+  std::vector<Frontier> frontiers() const { return find_frontiers(cells(), last_.cell_size_m(), config_); }
+
+ private:
+  struct Known {
+    CellTile free, unknown;
+  };
+  struct RowByRow {
+    bool operator()(ChunkIndex a, ChunkIndex b) const { return a.y != b.y ? a.y < b.y : a.x < b.x; }
+  };
+
+  void look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIndex>& due);
+  void redo(ChunkIndex index);
+  ChunkWindow unknown_around(ChunkIndex index) const;
+
+  ExplorationConfig config_;
+  int depth_ = 1;                                   ///< least_depth_m in cells
+  GridSnapshot last_;                               ///< held, so that a chunk's address says which it is
+  std::map<ChunkIndex, Known> known_;               ///< what is not in here is unknown
+  std::map<ChunkIndex, CellTile, RowByRow> cells_;  ///< no tile is clear
+};
+
+}  // namespace dynslam

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "autopilot/frontier_map.h"
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "autopilot/drawn_frontiers.h"
+
+namespace dynslam {
+namespace {
+
+constexpr double kCell_m = 0.05;
+
+ExplorationConfig with_depth(int cells) {
+  ExplorationConfig config;
+  config.least_depth_m = cells * kCell_m;
+  return config;
+}
+
+/// A grid that is drawn on with rectangles.
+class Canvas {
+ public:
+  void fill(CellIndex low, int width, int height, CellState state) {
+    std::set<ChunkIndex> changed;
+    for (int y = low.y; y < low.y + height; ++y) {
+      for (int x = low.x; x < low.x + width; ++x) {
+        const ChunkIndex chunk = chunk_of({x, y});
+        changed.insert(chunk);
+        const std::uint64_t bit = std::uint64_t{1} << (x & kChunkMask);
+        const auto row = static_cast<std::size_t>(y & kChunkMask);
+        Tiles& tiles = tiles_[chunk];
+        tiles.free[row] &= ~bit, tiles.occupied[row] &= ~bit;
+        if (state == CellState::kFree) tiles.free[row] |= bit;
+        if (state == CellState::kOccupied) tiles.occupied[row] |= bit;
+      }
+    }
+    for (const ChunkIndex c : changed) grid.show(c, tiles_[c].free, tiles_[c].occupied);
+  }
+
+  ChunkedGrid grid{kCell_m};
+
+ private:
+  struct Tiles {
+    CellTile free{}, occupied{};
+  };
+  std::map<ChunkIndex, Tiles> tiles_;
+};
+
+void fill_at_random(Canvas& canvas, std::mt19937& random) {
+  const CellIndex low{static_cast<int>(random() % 200) - 130, static_cast<int>(random() % 150) - 80};
+  const auto kind = random() % 5;
+  canvas.fill(low, 1 + static_cast<int>(random() % 60), 1 + static_cast<int>(random() % 60),
+              kind < 3    ? CellState::kFree
+              : kind == 3 ? CellState::kUnknown
+                          : CellState::kOccupied);
+}
+
+bool is_all_unknown(const GridSnapshot& map, CellIndex low, int side) {
+  for (int i = 0; i < side * side; ++i) {
+    if (map.state({low.x + i % side, low.y + i / side}) != CellState::kUnknown) return false;
+  }
+  return true;
+}
+
+/// Cell by cell, row by row, as the definition says.
+std::vector<CellIndex> frontier_cells_one_by_one(const GridSnapshot& map, int depth) {
+  const CellIndex low = first_cell(map.box().min);
+  const CellIndex high = first_cell({map.box().max.x + 1, map.box().max.y + 1});
+  std::set<CellIndex> deep;
+  for (int y = low.y - depth; y <= high.y; ++y) {
+    for (int x = low.x - depth; x <= high.x; ++x) {
+      if (!is_all_unknown(map, {x, y}, depth)) continue;
+      for (int i = 0; i < depth * depth; ++i) deep.insert({x + i % depth, y + i / depth});
+    }
+  }
+  std::vector<CellIndex> cells;
+  for (int y = low.y; y < high.y; ++y) {
+    for (int x = low.x; x < high.x; ++x) {
+      if (map.state({x, y}) == CellState::kFree && (deep.contains({x - 1, y}) || deep.contains({x + 1, y}) ||
+                                                    deep.contains({x, y - 1}) || deep.contains({x, y + 1})))
+        cells.push_back({x, y});
+    }
+  }
+  return cells;
+}
+
+TEST(FrontierMap, KeepsUpWithAChangingMap) {
+  std::mt19937 random(3);
+  for (const int depth : {1, 4}) {
+    Canvas canvas;
+    FrontierMap frontiers(with_depth(depth));
+    for (int round = 0; round < 8; ++round) {
+      for (auto n = 1 + random() % 3; n > 0; --n) fill_at_random(canvas, random);
+      const GridSnapshot map = canvas.grid.snapshot();
+      frontiers.update(map);
+      const std::vector<CellIndex> expected = frontier_cells_one_by_one(map, depth);
+      ASSERT_EQ(frontiers.cells(), expected) << depth << ", " << round;
+      for (const CellIndex c : expected) ASSERT_TRUE(frontiers.is_frontier(c));
+      FrontierMap afresh(with_depth(depth));
+      afresh.update(map);
+      ASSERT_EQ(afresh.cells(), expected);
+      EXPECT_FALSE(expected.empty());
+    }
+  }
+}
+
+TEST(FrontierMap, DoesNothingAnewWhenNoCellChangesItsState) {
+  Canvas canvas;
+  canvas.fill({-100, -100}, 300, 300, CellState::kFree);
+  FrontierMap frontiers;
+  EXPECT_GT(frontiers.update(canvas.grid.snapshot()), 20U);
+  EXPECT_EQ(frontiers.update(canvas.grid.snapshot()), 0U);
+  canvas.grid.add_hit({0, 0});  // less sure, free still
+  EXPECT_EQ(frontiers.update(canvas.grid.snapshot()), 0U);
+}
+
+TEST(FrontierMap, DoesAnewOnlyWhatIsNearAChange) {
+  Canvas canvas;
+  canvas.fill({0, 0}, 640, 640, CellState::kFree);
+  FrontierMap frontiers(with_depth(5));
+  frontiers.update(canvas.grid.snapshot());
+  canvas.fill({160, 160}, 2, 2, CellState::kUnknown);
+  EXPECT_EQ(frontiers.update(canvas.grid.snapshot()), 1U) << "in the middle of a chunk";
+  canvas.fill({200, 160}, 2, 2, CellState::kOccupied);
+  EXPECT_EQ(frontiers.update(canvas.grid.snapshot()), 1U);
+  canvas.fill({192, 192}, 2, 2, CellState::kUnknown);
+  EXPECT_EQ(frontiers.update(canvas.grid.snapshot()), 4U) << "in a corner";
+}
+
+TEST(FrontierMap, FollowsAMapThatWasDrawnAnew) {
+  Canvas wide, narrow;
+  wide.fill({-100, -100}, 300, 300, CellState::kFree);
+  narrow.fill({10, 10}, 30, 30, CellState::kFree);
+  FrontierMap frontiers(with_depth(3));
+  for (const Canvas* canvas : {&wide, &narrow, &wide}) {
+    const GridSnapshot map = const_cast<Canvas*>(canvas)->grid.snapshot();
+    frontiers.update(map);
+    EXPECT_EQ(frontiers.cells(), frontier_cells_one_by_one(map, 3));
+  }
+}
+
+TEST(FrontierMap, BeginsAnewWithCellsOfAnotherSize) {
+  FrontierMap frontiers;
+  Canvas canvas;
+  canvas.fill({0, 0}, 50, 50, CellState::kFree);
+  frontiers.update(canvas.grid.snapshot());
+  EXPECT_FALSE(frontiers.cells().empty());
+  ChunkedGrid other(0.02);
+  frontiers.update(other.snapshot());
+  EXPECT_TRUE(frontiers.cells().empty());
+  EXPECT_TRUE(frontiers.frontiers().empty());
+}
+
+TEST(FrontierMap, OfNothingIsEmpty) {
+  FrontierMap frontiers;
+  EXPECT_EQ(frontiers.update({}), 0U);
+  EXPECT_TRUE(frontiers.cells().empty());
+  EXPECT_FALSE(frontiers.is_frontier({0, 0}));
+}
+
+}  // namespace
+}  // namespace dynslam
