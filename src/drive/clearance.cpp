@@ -48,6 +48,20 @@ Clearance::Contact Clearance::first_contact(const Sweep& sweep, const Pose2& now
   return first;
 }
 
+double Clearance::nearest_m(Time now, const RecentMotion& motion) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  if (!end_) return nearest;
+  const Pose2 now_T_end = motion.between(*end_, now).inverse();
+  const double c = std::cos(now_T_end.yaw), s = std::sin(now_T_end.yaw);
+  for (const ObstaclePoint& p : points_) {
+    const double x = now_T_end.x + c * p.x_m - s * p.y_m, y = now_T_end.y + s * p.x_m + c * p.y_m;
+    if (x < -body_.half_length_m()) continue;
+    const double beyond = std::max(std::abs(x) - body_.half_length_m(), std::abs(y) - body_.half_width_m());
+    if (beyond < nearest) nearest = std::min(nearest, distance_to_body_m(x, y));
+  }
+  return nearest;
+}
+
 ClearWay Clearance::way(Time now, const Twist& twist, const RecentMotion& motion) const {
   if (!is_moving(twist)) return {};
   if (!end_) return {0.0, 0.0};

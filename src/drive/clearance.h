@@ -66,6 +66,9 @@ class Clearance {
   /// not. The allowed speed depends on the arc, not on how fast it is asked for. REQUIRES: finite.
   ClearWay way(Time now, const Twist& twist, const RecentMotion& motion) const;
 
+  /// From the body to the nearest thing that is ahead or beside; infinite when nothing is.
+  double nearest_m(Time now, const RecentMotion& motion) const;
+
   /// The way to standstill of the point of the body that moves at this speed.
   double stopping_distance_m(double speed_mps) const;
   /// The fastest speed that stops within such a way.

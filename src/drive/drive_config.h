@@ -8,6 +8,7 @@
 #include "drive/battery_watch.h"
 #include "drive/body_config.h"
 #include "drive/clearance.h"
+#include "drive/follower_config.h"
 #include "drive/heartbeat.h"
 #include "drive/kinematics.h"
 #include "drive/safety_config.h"
@@ -22,6 +23,7 @@ struct DriveConfig {
   ClearanceConfig clearance;
   BatteryConfig battery;
   SafetyConfig safety;
+  FollowerConfig follower;
 
   /// Calls `visit(name of the table, struct with fields)` for each table.
   template <class Self, class Visit>
@@ -32,6 +34,7 @@ struct DriveConfig {
     visit(std::string_view("clearance"), self.clearance);
     visit(std::string_view("battery"), self.battery);
     visit(std::string_view("safety"), self.safety);
+    visit(std::string_view("follower"), self.follower);
   }
 };
 
