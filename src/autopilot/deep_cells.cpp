@@ -49,6 +49,12 @@ void keep_deep(ChunkWindow& cells, int side) {
   });
 }
 
+CellTile middle_of(const ChunkWindow& cells) {
+  CellTile found;
+  for (std::size_t r = 0; r < kChunkSide; ++r) found[r] = cells[kChunkSide + r][1];
+  return found;
+}
+
 CellTile beside(const ChunkWindow& cells) {
   CellTile found;
   for (std::size_t r = 0; r < kChunkSide; ++r) {

@@ -20,6 +20,8 @@ inline constexpr int kMostDepth = 32;  ///< cells
 /// kMostDepth.
 void keep_deep(ChunkWindow& cells, int side);
 
+/// What of the middle chunk is in the set.
+CellTile middle_of(const ChunkWindow& cells);
 /// The cells of the middle chunk beside which (left, right, above, below) a cell is in the set.
 CellTile beside(const ChunkWindow& cells);
 

@@ -44,6 +44,16 @@ ChunkBox chunks_near_difference(ChunkIndex index, const CellTile& a, const CellT
           chunk_of({first.x + right + reach, first.y + high + reach})};
 }
 
+void add(const ChunkBox& chunks, std::set<ChunkIndex>& due) {
+  for (std::int32_t y = chunks.min.y; y <= chunks.max.y; ++y) {
+    for (std::int32_t x = chunks.min.x; x <= chunks.max.x; ++x) due.insert({x, y});
+  }
+}
+
+int cells_for(double length_m, double cell_size_m) {
+  return std::clamp(static_cast<int>(std::ceil(length_m / cell_size_m - 1e-9)), 1, kMostDepth);
+}
+
 bool is_clear(const CellTile& tile) {
   return std::all_of(tile.begin(), tile.end(), [](std::uint64_t row) { return row == 0; });
 }
@@ -62,8 +72,8 @@ std::size_t FrontierMap::update(const GridSnapshot& map) {
     cells_.clear();
     last_ = {};
   }
-  depth_ = std::clamp(static_cast<int>(std::ceil(config_.least_depth_m / map.cell_size_m() - 1e-9)), 1,
-                      kMostDepth);
+  depth_ = cells_for(config_.least_depth_m, map.cell_size_m());
+  width_ = cells_for(config_.least_width_m, map.cell_size_m());
   std::set<ChunkIndex> due;
   const ChunkBox box = box_of_both(map.box(), last_.box());
   for (std::int32_t y = box.min.y; y <= box.max.y; ++y) {
@@ -79,16 +89,12 @@ std::size_t FrontierMap::update(const GridSnapshot& map) {
 
 /// Most looks make cells surer of what they are: then nothing is due.
 void FrontierMap::look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIndex>& due) {
-  const auto at = known_.find(index);
-  const Known before = at == known_.end() ? Known{kClear, kFull} : at->second;
   const Known now =
       chunk ? Known{cells_in_state(*chunk, CellState::kFree), cells_in_state(*chunk, CellState::kUnknown)}
             : Known{kClear, kFull};
-  if (now.free != before.free) due.insert(index);
-  const ChunkBox near = chunks_near_difference(index, now.unknown, before.unknown, depth_);
-  for (std::int32_t y = near.min.y; y <= near.max.y; ++y) {
-    for (std::int32_t x = near.min.x; x <= near.max.x; ++x) due.insert({x, y});
-  }
+  const Known& before = known(index);
+  add(chunks_near_difference(index, now.free, before.free, width_ - 1), due);
+  add(chunks_near_difference(index, now.unknown, before.unknown, depth_), due);
   if (chunk) {
     known_[index] = now;
   } else {
@@ -96,12 +102,17 @@ void FrontierMap::look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIn
   }
 }
 
-ChunkWindow FrontierMap::unknown_around(ChunkIndex index) const {
+const FrontierMap::Known& FrontierMap::known(ChunkIndex index) const {
+  static constexpr Known kNothing{kClear, kFull};
+  const auto at = known_.find(index);
+  return at == known_.end() ? kNothing : at->second;
+}
+
+ChunkWindow FrontierMap::around(ChunkIndex index, CellTile Known::*cells) const {
   ChunkWindow window;
   for (int dy = 0; dy < 3; ++dy) {
     for (int dx = 0; dx < 3; ++dx) {
-      const auto known = known_.find({index.x + dx - 1, index.y + dy - 1});
-      const CellTile& tile = known == known_.end() ? kFull : known->second.unknown;
+      const CellTile& tile = known({index.x + dx - 1, index.y + dy - 1}).*cells;
       for (int r = 0; r < kChunkSide; ++r)
         window[static_cast<std::size_t>(dy * kChunkSide + r)][static_cast<std::size_t>(dx)] =
             tile[static_cast<std::size_t>(r)];
@@ -112,12 +123,14 @@ ChunkWindow FrontierMap::unknown_around(ChunkIndex index) const {
 
 void FrontierMap::redo(ChunkIndex index) {
   cells_.erase(index);
-  const auto known = known_.find(index);
-  if (known == known_.end() || is_clear(known->second.free)) return;
-  ChunkWindow unknown = unknown_around(index);
-  if (is_clear(common(known->second.free, beside(unknown)))) return;
+  const CellTile& all_free = known(index).free;
+  if (is_clear(all_free)) return;
+  ChunkWindow unknown = around(index, &Known::unknown);
+  if (is_clear(common(all_free, beside(unknown)))) return;
+  ChunkWindow free = around(index, &Known::free);
   keep_deep(unknown, depth_);
-  const CellTile cells = common(known->second.free, beside(unknown));
+  keep_deep(free, width_);
+  const CellTile cells = common(middle_of(free), beside(unknown));
   if (!is_clear(cells)) cells_[index] = cells;
 }
 

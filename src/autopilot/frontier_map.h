@@ -14,9 +14,10 @@
 namespace dynslam {
 
 /// Keeps up with a map which of its cells are frontier cells: free cells beside (left, right, above, below)
-/// the unknown (thesis 6.6). The unknown counts where a square of `least_depth_m` fits into it: the cells
-/// that are missed along walls and between beams are no frontiers, and nowhere that the robot could go.
-/// Chunks that do not exist are unknown.
+/// the unknown (thesis 6.6). The unknown counts where a square of `least_depth_m` fits into it: what is
+/// missed along walls and between beams is no frontier, nor is anything that the robot would not fit into.
+/// The free counts where a square of `least_width_m` fits into it: a lone ray that went through a wall is no
+/// way. Chunks that do not exist are unknown.
 ///
 /// Memory: 1.1 KB a chunk, and the snapshot that was seen last. One thread.
 class FrontierMap {
@@ -43,10 +44,11 @@ class FrontierMap {
 
   void look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIndex>& due);
   void redo(ChunkIndex index);
-  ChunkWindow unknown_around(ChunkIndex index) const;
+  const Known& known(ChunkIndex index) const;
+  ChunkWindow around(ChunkIndex index, CellTile Known::*cells) const;
 
   ExplorationConfig config_;
-  int depth_ = 1;                                   ///< least_depth_m in cells
+  int depth_ = 1, width_ = 1;                       ///< least_depth_m and least_width_m in cells
   GridSnapshot last_;                               ///< held, so that a chunk's address says which it is
   std::map<ChunkIndex, Known> known_;               ///< what is not in here is unknown
   std::map<ChunkIndex, CellTile, RowByRow> cells_;  ///< no tile is clear

@@ -5,6 +5,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,9 +17,10 @@ namespace {
 
 constexpr double kCell_m = 0.05;
 
-ExplorationConfig with_depth(int cells) {
+ExplorationConfig with_depth(int cells, int free_cells = 1) {
   ExplorationConfig config;
   config.least_depth_m = cells * kCell_m;
+  config.least_width_m = free_cells * kCell_m;
   return config;
 }
 
@@ -60,48 +62,54 @@ void fill_at_random(Canvas& canvas, std::mt19937& random) {
                           : CellState::kOccupied);
 }
 
-bool is_all_unknown(const GridSnapshot& map, CellIndex low, int side) {
+bool is_all(const GridSnapshot& map, CellState state, CellIndex low, int side) {
   for (int i = 0; i < side * side; ++i) {
-    if (map.state({low.x + i % side, low.y + i / side}) != CellState::kUnknown) return false;
+    if (map.state({low.x + i % side, low.y + i / side}) != state) return false;
   }
   return true;
 }
 
-/// Cell by cell, row by row, as the definition says.
-std::vector<CellIndex> frontier_cells_one_by_one(const GridSnapshot& map, int depth) {
+/// The cells of squares that are all in one state.
+std::set<CellIndex> squares(const GridSnapshot& map, CellState state, int side) {
   const CellIndex low = first_cell(map.box().min);
   const CellIndex high = first_cell({map.box().max.x + 1, map.box().max.y + 1});
-  std::set<CellIndex> deep;
-  for (int y = low.y - depth; y <= high.y; ++y) {
-    for (int x = low.x - depth; x <= high.x; ++x) {
-      if (!is_all_unknown(map, {x, y}, depth)) continue;
-      for (int i = 0; i < depth * depth; ++i) deep.insert({x + i % depth, y + i / depth});
-    }
-  }
-  std::vector<CellIndex> cells;
-  for (int y = low.y; y < high.y; ++y) {
-    for (int x = low.x; x < high.x; ++x) {
-      if (map.state({x, y}) == CellState::kFree && (deep.contains({x - 1, y}) || deep.contains({x + 1, y}) ||
-                                                    deep.contains({x, y - 1}) || deep.contains({x, y + 1})))
-        cells.push_back({x, y});
+  std::set<CellIndex> cells;
+  for (int y = low.y - side; y <= high.y; ++y) {
+    for (int x = low.x - side; x <= high.x; ++x) {
+      if (!is_all(map, state, {x, y}, side)) continue;
+      for (int i = 0; i < side * side; ++i) cells.insert({x + i % side, y + i / side});
     }
   }
   return cells;
 }
 
+/// Cell by cell, row by row, as the definition says.
+std::vector<CellIndex> frontier_cells_one_by_one(const GridSnapshot& map, int depth, int width) {
+  const std::set<CellIndex> unknown = squares(map, CellState::kUnknown, depth);
+  std::vector<CellIndex> cells;
+  for (const CellIndex c : squares(map, CellState::kFree, width)) {
+    if (unknown.contains({c.x - 1, c.y}) || unknown.contains({c.x + 1, c.y}) ||
+        unknown.contains({c.x, c.y - 1}) || unknown.contains({c.x, c.y + 1}))
+      cells.push_back(c);
+  }
+  std::sort(cells.begin(), cells.end(),
+            [](CellIndex a, CellIndex b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+  return cells;
+}
+
 TEST(FrontierMap, KeepsUpWithAChangingMap) {
   std::mt19937 random(3);
-  for (const int depth : {1, 4}) {
+  for (const auto& [depth, width] : {std::pair{1, 1}, {5, 1}, {1, 3}, {4, 3}}) {
     Canvas canvas;
-    FrontierMap frontiers(with_depth(depth));
-    for (int round = 0; round < 8; ++round) {
+    FrontierMap frontiers(with_depth(depth, width));
+    for (int round = 0; round < 4; ++round) {
       for (auto n = 1 + random() % 3; n > 0; --n) fill_at_random(canvas, random);
       const GridSnapshot map = canvas.grid.snapshot();
       frontiers.update(map);
-      const std::vector<CellIndex> expected = frontier_cells_one_by_one(map, depth);
-      ASSERT_EQ(frontiers.cells(), expected) << depth << ", " << round;
+      const std::vector<CellIndex> expected = frontier_cells_one_by_one(map, depth, width);
+      ASSERT_EQ(frontiers.cells(), expected) << depth << ", " << width << ", " << round;
       for (const CellIndex c : expected) ASSERT_TRUE(frontiers.is_frontier(c));
-      FrontierMap afresh(with_depth(depth));
+      FrontierMap afresh(with_depth(depth, width));
       afresh.update(map);
       ASSERT_EQ(afresh.cells(), expected);
       EXPECT_FALSE(expected.empty());
@@ -140,7 +148,7 @@ TEST(FrontierMap, FollowsAMapThatWasDrawnAnew) {
   for (const Canvas* canvas : {&wide, &narrow, &wide}) {
     const GridSnapshot map = const_cast<Canvas*>(canvas)->grid.snapshot();
     frontiers.update(map);
-    EXPECT_EQ(frontiers.cells(), frontier_cells_one_by_one(map, 3));
+    EXPECT_EQ(frontiers.cells(), frontier_cells_one_by_one(map, 3, 1));
   }
 }
 

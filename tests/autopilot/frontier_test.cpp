@@ -124,6 +124,25 @@ TEST(Frontiers, AreNotAlongWallsThatAreMissedByACellOrTwo) {
                   .empty());
 }
 
+TEST(Frontiers, AreNotAlongARayThatWentThroughAWall) {
+  for (const double cell_size_m : {0.02, 0.05}) {
+    ChunkedGrid grid(cell_size_m);
+    const int side = static_cast<int>(2.0 / cell_size_m);
+    for (int i = 0; i < side; ++i) {
+      for (int j = 0; j < side; ++j) grid.add_miss({i, j});
+      for (const CellIndex wall :
+           {CellIndex{i, -1}, CellIndex{i, side}, CellIndex{-1, i}, CellIndex{side, i}})
+        grid.add_hit(wall), grid.add_hit(wall);
+    }
+    for (int i = 0; i < 2 * side; ++i) {
+      for (int look = 0; look < 10; ++look) grid.add_miss({side + i, side / 2 + i / 3});
+    }
+    FrontierMap frontiers;
+    frontiers.update(grid.snapshot());
+    EXPECT_TRUE(frontiers.frontiers().empty()) << cell_size_m;
+  }
+}
+
 TEST(Frontiers, AreWhereTheRobotCouldGoOn) {
   const auto found = frontiers_of({"###########             ",  //
                                    "#..........             ",  //
