@@ -14,6 +14,7 @@ struct FollowerConfig {
   double turn_radps = 1.5;
   double least_mps = 0.08;
   double braking_mps2 = 0.5;
+  double reaction_s = 0.25;
   double lookahead_s = 1.2;
   double lookahead_least_m = 0.3;
   double lookahead_most_m = 0.8;
@@ -43,6 +44,7 @@ struct FollowerConfig {
           self.least_mps);
     visit(Field{"braking_mps2", "how gently it slows down for corners and the goal", 0.05, 5.0},
           self.braking_mps2);
+    visit(Field{"reaction_s", "from a command until the wheels do it", 0.0, 2.0}, self.reaction_s);
     visit(Field{"lookahead_s", "the point of the route that is steered to is so long ahead", 0.2, 5.0},
           self.lookahead_s);
     visit(Field{"lookahead_least_m", "but at least so far", 0.1, 3.0}, self.lookahead_least_m);

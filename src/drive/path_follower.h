@@ -68,16 +68,26 @@ class PathFollower {
   void estimate(const FollowInputs& in);
   void find_progress();
   std::optional<FollowOutput> come_to_goal(const Tick& tick);
-  FollowOutput drive(const Tick& tick);
-  std::optional<FollowOutput> turn_first(const Tick& tick, double off_rad);
-  FollowOutput turn_by(const Tick& tick, double left_rad);
-  FollowOutput hindered(Time now, const ClearWay& way);
+  bool faces_goal_heading(const Tick& tick) const;
   FollowOutput watch_motion(Time now, FollowOutput out);
   FollowOutput rest(Following state, std::string reason = {});
-  double speed_for(const Tick& tick, double curvature_1pm) const;
-  double allowed_mps(const Tick& tick, double curvature_1pm) const;
   double remaining_m() const { return route_.length_m() - progress_m_; }
-  Vector2 robot_T(const Vector2& p_map) const { return pose_.inverse() * p_map; }
+  bool is_near_goal() const { return remaining_m() <= 2.0 * config_.pass_m; }
+
+  FollowOutput drive(const Tick& tick);
+  Vector2 aim_robot() const;
+  double most_curvature_1pm() const;
+  double curvature_to(const Vector2& to_robot) const;
+  std::optional<Arc> arc_for(const Tick& tick, const Vector2& to_robot, double wanted_1pm,
+                             double wanted_mps) const;
+  void note_hindrance(Time now, bool wanted_is_free);
+  FollowOutput hindered(Time now, const ClearWay& way);
+  void begin_turn(double left_rad);
+  bool is_to_turn(const Tick& tick, double off_rad);
+  FollowOutput turn_by(const Tick& tick, double left_rad);
+  double speed_for(const Tick& tick, double curvature_1pm) const;
+  double corner_speed_mps() const;
+  double allowed_mps(const Tick& tick, double curvature_1pm) const;
 
   FollowerConfig config_;
   BodyConfig body_;

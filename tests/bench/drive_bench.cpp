@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One tick of the control thread: the dead man's switch, Safety with the collision zone, the kinematics.
-// Ticks come 50 times a second, scans of 1200 beams ten times.
+// Ticks come 50 times a second, scans of 1200 beams ten times. And one turn of the follower of routes, 20
+// times a second.
 #include <cmath>
 #include <memory>
 #include <random>
@@ -11,6 +12,7 @@
 #include "bench/benchmarks.h"
 #include "drive/drawn_scan.h"
 #include "drive/drive_control.h"
+#include "drive/path_follower.h"
 
 namespace dynslam::bench {
 namespace {
@@ -58,12 +60,39 @@ void control_tick(benchmark::State& state, const DrawnWorld& world) {
       benchmark::Counter(1.0, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
+/// A route through the room, from a robot that is now here, now there: with everything free only the wanted
+/// arc is looked at, among furniture all of them.
+void follower_next(benchmark::State& state, const DrawnWorld& world) {
+  PathFollower follower;
+  const RecentMotion motion;
+  follower.see(scan_of(world, Time(), 1500), motion);
+  follower.follow({1, {{0, 0}, {1, 0.2}, {2, -0.4}, {2.5, 1}, {2, 1.2}}, {}, 0.5, true});
+  Time now;
+  int tick = 0;
+  Following last = Following::kIdle;
+  for (auto _ : state) {
+    now += milliseconds(50);
+    const double off = 0.01 * static_cast<double>(++tick % 7);
+    const FollowOutput out = follower.next({now, {0.1 + off, off, off}, {0.3, 0.1}}, motion);
+    last = out.state;
+    benchmark::DoNotOptimize(out.twist);
+    if (tick % 32 == 0)
+      follower.follow({static_cast<std::uint64_t>(tick), {{0, 0}, {1, 0.2}, {2, -0.4}}, {}, 0.5, true});
+  }
+  state.SetLabel(to_string(last));
+}
+
 }  // namespace
 
 void register_drive_benchmarks() {
   benchmark::RegisterBenchmark("control_tick/crowded_1200_drawn", control_tick, crowded_room())
       ->Unit(benchmark::kMicrosecond);
   benchmark::RegisterBenchmark("control_tick/hall_1200_drawn", control_tick, DrawnWorld{})
+      ->Unit(benchmark::kMicrosecond);
+  benchmark::RegisterBenchmark("follower_next/crowded_1500_drawn", follower_next, crowded_room())
+      ->Unit(benchmark::kMicrosecond);
+  benchmark::RegisterBenchmark("follower_next/wall_1500_drawn", follower_next,
+                               DrawnWorld{{{-2, -1.5, 5, -1.5}, {-2, 1.5, 5, 1.5}}, {}})
       ->Unit(benchmark::kMicrosecond);
 }
 

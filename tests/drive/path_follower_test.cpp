@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -212,6 +213,38 @@ TEST(PathFollower, PassesAThingThatStandsALittleInTheWay) {
   EXPECT_LT(off, 0.3);
 }
 
+/// Posts at random, routes straight through them: whatever comes of it, it touches nothing.
+TEST(PathFollower, RunsIntoNothingHoweverBadTheRoute) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-2.5, 2.5), yaw(-kPi, kPi), size(0.02, 0.3);
+  int arrived = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    DrawnWorld clutter{{{-3, -3, 3, -3}, {3, -3, 3, 3}, {3, 3, -3, 3}, {-3, 3, -3, -3}}, {}};
+    while (clutter.posts.size() < 12) {
+      const DrawnWorld::Post post{place(random), place(random), size(random)};
+      if (std::hypot(post.x, post.y) > post.radius + 0.3) clutter.posts.push_back(post);
+    }
+    ToyRobot robot(clutter, kReal, {0, 0, yaw(random)}, seed);
+    for (std::uint64_t id = 1; id <= 3; ++id) {
+      robot.follower.follow({id, {robot.pose.translation(), {place(random), place(random)}}, {}, 0.5, true});
+      arrived += robot.run_to_end(15.0).state == Following::kArrived ? 1 : 0;
+    }
+    EXPECT_GT(robot.least_gap_m, 0.0) << seed;
+    expect_sane(robot);
+  }
+  EXPECT_GE(arrived, 6) << "of 24";
+}
+
+TEST(PathFollower, TurnsTheOtherWayWhenACornerWouldTouch) {
+  // Close before the corner that would swing out to the left.
+  ToyRobot robot({{{0.08, 0.132, 0.1, 0.132}}, {}}, ToyFaults{});
+  robot.follower.follow(route({{0, 0}, {-1, 1.5}}));
+  const FollowOutput out = robot.tick();
+  EXPECT_EQ(out.state, Following::kTurning) << out.reason;
+  EXPECT_LT(out.twist.w_radps, 0.0);
+  expect_sane(robot);
+}
+
 TEST(PathFollower, NoticesThatItsWheelsSlip) {
   ToyRobot robot({}, kReal);
   robot.follower.follow(route({{0, 0}, {5, 0}}));
@@ -244,7 +277,7 @@ TEST(PathFollower, ANewRouteForTheSameErrandIsNoJerk) {
 }
 
 TEST(PathFollower, ACorrectedMapMakesItStrayIntoNothing) {
-  for (const double jump : {1.0, 0.9, -0.9, -1.0, 0.5, -0.5}) {
+  for (const double jump : {1.0, -0.9, 0.5, -0.5}) {
     ToyRobot robot({{{-1, 0.5, 9, 0.5}, {-1, -0.5, 9, -0.5}}, {}}, kReal);
     robot.follower.follow(route({{0, 0}, {7, 0}}));
     robot.run_on(4.0);

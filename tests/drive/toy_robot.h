@@ -40,15 +40,18 @@ inline double gap_m(const DrawnWorld& world, const Pose2& world_T_robot, const B
   };
   for (const auto& w : world.walls) {
     const Vector2 from(w.x0, w.y0), to(w.x1, w.y1);
-    const int steps = 1 + static_cast<int>((to - from).norm() / 0.02);
-    for (int i = 0; i <= steps; ++i) touch(from + (to - from) * i / steps, 0.0);
+    // About the place that is nearest to the robot's middle.
+    const double length = (to - from).norm();
+    const double along = (world_T_robot.translation() - from).dot(to - from) / length;
+    for (double at = along - 0.3; at <= along + 0.3; at += 0.01)
+      touch(from + (to - from) * std::clamp(at / length, 0.0, 1.0), 0.0);
   }
   for (const auto& p : world.posts) touch({p.x, p.y}, p.radius);
   return gap;
 }
 
 /// A robot on a drawn floor that obeys a PathFollower: lidar at 10 Hz, commands at 20 Hz, acceleration
-/// limits, wheels that lag. Time goes on from test to test step by step, never by itself.
+/// limits, wheels that lag.
 class ToyRobot {
  public:
   ToyRobot(DrawnWorld drawn, const ToyFaults& with, const Pose2& start = {}, unsigned seed = 1)
@@ -78,6 +81,7 @@ class ToyRobot {
     ramp_.set(ramp_.toward(told, std::chrono::milliseconds(50)));
     motion.add(now, ramp_.now(), std::nullopt);
     for (int i = 0; i < 5; ++i) step(0.01);
+    least_gap_m = std::min(least_gap_m, gap_m(world, pose));
     now += std::chrono::milliseconds(50);
     return out;
   }
@@ -123,7 +127,7 @@ class ToyRobot {
 
  private:
   void scan() {
-    const Scan seen = scan_of(world, now, 600, pose);
+    const Scan seen = scan_of(world, now, 360, pose);
     follower.see(seen, motion);
     judge_.see(seen, motion);
   }
@@ -156,7 +160,6 @@ class ToyRobot {
     const double half = 0.5 * twist.w_radps * s;
     pose = pose * Pose2{twist.v_mps * s * std::cos(half), twist.v_mps * s * std::sin(half), 2.0 * half};
     driven_m += std::abs(twist.v_mps) * s;
-    least_gap_m = std::min(least_gap_m, gap_m(world, pose));
   }
 
   std::mt19937 random_;
