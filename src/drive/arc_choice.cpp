@@ -12,7 +12,7 @@ constexpr int kArcsPerSide = 6;
 constexpr double kWidest_1pm = 6.0;
 constexpr double kRolledOut_m = 0.5;
 constexpr double kLeastProgress = 0.1;
-constexpr double kFreedomWeight = 1.0, kProgressWeight = 1.0, kSteadyWeight = 0.2;
+constexpr double kFreedomWeight = 1.0, kProgressWeight = 1.0, kSteadyWeight = 0.4;
 
 /// Where an arc leads after so many metres.
 Vector2 end_of_arc(double curvature_1pm, double length_m) {

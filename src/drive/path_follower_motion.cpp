@@ -181,7 +181,7 @@ double PathFollower::corner_speed_mps() const {
   for (const Route::Corner& corner : route_.corners(progress_m_, progress_m_ + config_.lookahead_most_m)) {
     const double half = 0.5 * std::min(corner.turn_rad, 0.95 * kPi);
     const double radius = config_.cut_corner_m / std::max(1e-6, 1.0 / std::cos(half) - 1.0);
-    const double round = std::max(config_.least_mps, 0.8 * config_.turn_radps * radius);
+    const double round = std::max(config_.least_mps, 0.6 * config_.turn_radps * radius);
     const double before = corner.along_m - progress_m_ - std::min(radius * std::tan(half), kRounding_m);
     speed = std::min(speed, round + stopping_speed(before, config_.braking_mps2, config_.reaction_s));
   }
