@@ -170,7 +170,7 @@ step_coverage() {
   run_tests build/coverage
   local lines=build/coverage/lines.json folder failed=0
   quietly gcovr --root . --object-directory build/coverage --filter src/ --json "$lines"
-  for folder in base grid pipe io slam drive autopilot sim robot server; do
+  for folder in base grid pipe plan io slam drive autopilot sim robot server; do
     # Never --output to a device: gcovr, run by root, puts a file in its place.
     gcovr --root . --add-tracefile "$lines" --filter "src/$folder/" --fail-under-line 90 \
       --print-summary --output "$logs/gcovr.txt" >"$logs/gcovr" || failed=1

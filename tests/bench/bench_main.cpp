@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The benchmarks of what costs: drawing scans, matching them, work on whole maps, whole recordings, ticks of
-// driving, turns of exploring, and the simulator.
+// driving, planning, turns of exploring, and the simulator.
 //
 //   cmake --preset release && cmake --build --preset release --target dynslam_bench
 //   build/release/tests/bench/dynslam_bench
@@ -82,6 +82,7 @@ int run(int argc, char** argv) {
   register_back_end_benchmarks();
   register_map_benchmarks();
   register_drive_benchmarks();
+  register_plan_benchmarks();
   register_autopilot_benchmarks();
   register_cast_benchmarks();
   have_had_a_thread();

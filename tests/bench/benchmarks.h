@@ -11,6 +11,7 @@ void register_cast_benchmarks();
 void register_replay_benchmarks();
 void register_back_end_benchmarks();
 void register_drive_benchmarks();
+void register_plan_benchmarks();
 void register_autopilot_benchmarks();
 
 }  // namespace dynslam::bench

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace dynslam {
+
+/// A queue by whole keys that never asks for less than it gave (Dial, 1969): a ring of buckets, each kWidth
+/// wide; what is in one bucket comes last in, first out. Keeps its memory.
+template <class Value, std::uint32_t kWidth, std::size_t kBuckets>
+class BucketQueue {
+ public:
+  void clear() {
+    for (auto& bucket : buckets_) bucket.clear();
+    now_ = 0;
+    size_ = 0;
+  }
+  /// REQUIRES: `key` is less than kWidth * (kBuckets - 1) above that of what was taken last. A key below it
+  /// counts as the same.
+  void push(std::uint32_t key, const Value& value) {
+    const std::uint32_t bucket = key / kWidth;
+    now_ = size_ == 0 ? bucket : now_;
+    buckets_[std::max(bucket, now_) % kBuckets].push_back(value);
+    ++size_;
+  }
+  std::optional<Value> pop() {
+    if (size_ == 0) return std::nullopt;
+    while (buckets_[now_ % kBuckets].empty()) ++now_;
+    auto& bucket = buckets_[now_ % kBuckets];
+    const Value value = bucket.back();
+    bucket.pop_back();
+    --size_;
+    return value;
+  }
+
+ private:
+  std::vector<std::vector<Value>> buckets_ = std::vector<std::vector<Value>>(kBuckets);
+  std::uint32_t now_ = 0;
+  std::size_t size_ = 0;
+};
+
+}  // namespace dynslam

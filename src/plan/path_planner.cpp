@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "plan/path_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "grid/ray_walk.h"
+#include "plan/route_pull.h"
+#include "plan/way_out.h"
+
+namespace dynslam {
+namespace {
+
+Plan no_route(std::string reason) {
+  Plan plan;
+  plan.reason = std::move(reason);
+  return plan;
+}
+
+double length_of(const std::vector<Vector2>& route) {
+  double length_m = 0;
+  for (std::size_t i = 1; i < route.size(); ++i) length_m += (route[i] - route[i - 1]).norm();
+  return length_m;
+}
+
+Vector2 best_point(const Costmap& costmap, std::size_t coarse) {
+  return cell_centre(costmap.coarse().best_cell(coarse), costmap.cell_size_m());
+}
+
+/// The point of the map's box nearest to a finite one.
+Vector2 into_box(const Costmap& costmap, const Vector2& point) {
+  const CellIndex low = first_cell(costmap.box().min);
+  const CellIndex high = first_cell({costmap.box().max.x + 1, costmap.box().max.y + 1});
+  const auto centre = [&](CellIndex c) { return cell_centre(c, costmap.cell_size_m()); };
+  return point.cwiseMax(centre(low)).cwiseMin(centre({high.x - 1, high.y - 1}));
+}
+
+/// Whether the robot may end just there; where not, why.
+std::optional<std::string> trouble_at(const Costmap& costmap, const Ground& ground, const Vector2& point) {
+  if (!costmap.contains(point)) return "outside of the map";
+  const CellIndex c = cell_at(point, costmap.cell_size_m());
+  const bool known = costmap.coarse()[costmap.coarse().index_of(c)].known();
+  if (costmap.is_forbidden(c)) return "forbidden area";
+  if (costmap.is_occupied(c)) return "a wall stands there";
+  if (ground.price(known, 255) == 0) return "unknown ground";
+  if (ground.price(known, costmap.clearance_steps(c)) == 0) return "too near to a wall";
+  return std::nullopt;
+}
+
+}  // namespace
+
+Plan PathPlanner::plan(const Costmap& costmap, const PlanRequest& request) {
+  const Vector2 &start = request.start_map, &goal = request.goal_map;
+  if (!start.allFinite() || !goal.allFinite()) return no_route("not a place");
+  if (!costmap.contains(start)) return no_route("the robot is outside of the map");
+  const Ground cells = this->cells(request.unknown), legs = this->legs(request.unknown);
+  const auto out = way_out(costmap, cells, start);
+  if (!out) return no_route("no way out from where the robot stands");
+
+  const Found found = search(costmap, cells, legs, out->back(), goal);
+  Plan plan;
+  if (!found.exactly) {
+    const auto trouble = trouble_at(costmap, cells, goal);
+    plan.reason = found.gave_up ? "too far for the planner" : trouble.value_or("no way through");
+  }
+  if (!found.last) {
+    plan.nearest_map = best_point(costmap, found.end);
+    return plan;
+  }
+  plan.outcome = found.exactly ? PlanOutcome::kFound : PlanOutcome::kNearby;
+  std::vector<Vector2> open = centres_to(costmap, found.end);
+  open.insert(open.begin(), out->back());
+  if (found.exactly) open.push_back(goal);
+  plan.route_map.assign(out->begin(), out->end() - 1);
+  for (const Vector2& p : pulled(std::move(open), costmap, legs)) plan.route_map.push_back(p);
+  plan.length_m = length_of(plan.route_map);
+  return plan;
+}
+
+/// Where the goal has no room, the search goes on a little after it came near: the first place is not the
+/// nearest.
+PathPlanner::Found PathPlanner::search(const Costmap& costmap, const Ground& cells, const Ground& legs,
+                                       const Vector2& from, const Vector2& goal) {
+  const CoarseGrid& grid = costmap.coarse();
+  const double cell_m = costmap.cell_size_m();
+  const Vector2 aim_point = into_box(costmap, goal);
+  const std::size_t first = grid.index_of(cell_at(from, cell_m));
+  const std::size_t aim = grid.index_of(cell_at(aim_point, cell_m));
+  const bool may_end = !trouble_at(costmap, cells, goal);
+  const auto around = static_cast<std::uint32_t>(
+      std::min(1e6, 8 * CoarseSearch::kStep * config_.goal_tolerance_m / (kCoarseSide * cell_m)));
+
+  Found found{first, std::nullopt, false, false};
+  double least_m = std::numeric_limits<double>::infinity();
+  std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
+  search_.begin(costmap, cells, legs, first, aim);
+  int expansions = 0;
+  while (const auto settled = search_.next()) {
+    if (settled->estimate > most) break;
+    const Vector2 centre = best_point(costmap, settled->index);
+    const double distance_m = (centre - aim_point).norm();
+    if (distance_m < least_m) {
+      least_m = distance_m;
+      found.end = settled->index;
+    }
+    if (may_end && settled->index == aim && leg_cost(costmap, legs, centre, goal))
+      return {aim, goal, true, false};
+    const bool is_near = (centre - goal).norm() <= config_.goal_tolerance_m;
+    if (is_near && !may_end) most = std::min(most, settled->estimate + around);
+    if ((found.gave_up = ++expansions > config_.most_expansions)) break;
+    search_.expand(*settled);
+  }
+  const Vector2 nearest = best_point(costmap, found.end);
+  if ((nearest - goal).norm() <= config_.goal_tolerance_m) found.last = nearest;
+  return found;
+}
+
+/// The roomiest cells along the way that was found.
+std::vector<Vector2> PathPlanner::centres_to(const Costmap& costmap, std::size_t end) const {
+  std::vector<Vector2> centres{best_point(costmap, end)};
+  for (std::size_t at = end; search_.before(at) != at;) {
+    at = search_.before(at);
+    centres.push_back(best_point(costmap, at));
+  }
+  std::reverse(centres.begin(), centres.end());
+  return centres;
+}
+
+std::optional<std::size_t> PathPlanner::first_blocked_leg(const Costmap& costmap,
+                                                          std::span<const Vector2> route_map) const {
+  const Ground legs = this->legs(Unknown::kDear);
+  bool on_way_out = true;
+  const auto is_passable = [&](CellIndex c) {
+    if (costmap.clearance_steps(c) >= legs.least_clearance()) {
+      on_way_out = false;
+      return true;
+    }
+    const Vector2 from_start = cell_centre(c, costmap.cell_size_m()) - route_map.front();
+    return on_way_out && from_start.norm() <= kWayOut_m && !costmap.is_occupied(c);
+  };
+  for (std::size_t i = 0; i + 1 < route_map.size(); ++i) {
+    const Vector2 &from = route_map[i], &to = route_map[i + 1];
+    if (!costmap.contains(from) || !costmap.contains(to)) return i;
+    if (leg_cost(costmap, legs, from, to)) {
+      on_way_out = false;
+      continue;
+    }
+    bool free = on_way_out;
+    walk_ray(from, to, costmap.cell_size_m(), [&](CellIndex c) { free = free && is_passable(c); });
+    if (!free) return i;
+  }
+  return std::nullopt;
+}
+
+const RouteLengths& PathPlanner::reach(const Costmap& costmap, const Vector2& start_map, double most_m) {
+  lengths_.reset(costmap);
+  if (!start_map.allFinite() || !costmap.contains(start_map)) return lengths_;
+  const Ground cells = this->cells(Unknown::kForbidden), legs = this->legs(Unknown::kForbidden);
+  const auto out = way_out(costmap, cells, start_map);
+  if (!out) return lengths_;
+  const double coarse_m = kCoarseSide * costmap.cell_size_m(), first_m = length_of(*out);
+  std::vector<float>& lengths = lengths_.length_m_;
+  search_.begin(costmap, cells, legs, costmap.coarse().index_of(cell_at(out->back(), costmap.cell_size_m())),
+                std::nullopt);
+  int expansions = 0;
+  while (const auto settled = search_.next()) {
+    const std::size_t i = settled->index, before = search_.before(i);
+    const double length_m = before == i ? first_m : lengths[before] + coarse_m * search_.last_step(i);
+    if (length_m > most_m) continue;
+    lengths[i] = static_cast<float>(length_m);
+    if (++expansions > config_.most_expansions) break;
+    search_.expand(*settled);
+  }
+  return lengths_;
+}
+
+}  // namespace dynslam

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "plan/coarse_search.h"
+#include "plan/costmap.h"
+#include "plan/ground.h"
+#include "plan/planner_config.h"
+#include "plan/route_lengths.h"
+
+namespace dynslam {
+
+struct PlanRequest {
+  Vector2 start_map;
+  Vector2 goal_map;
+  Unknown unknown = Unknown::kForbidden;
+};
+
+enum class PlanOutcome {
+  kFound,
+  kNearby,  ///< ends near the goal, which is too tight
+  kNoRoute,
+};
+
+struct Plan {
+  PlanOutcome outcome = PlanOutcome::kNoRoute;
+  std::vector<Vector2> route_map;  ///< from the start to the end, straight legs between
+  double length_m = 0.0;
+  std::string reason;                  ///< why not to the goal, for people; empty when kFound
+  std::optional<Vector2> nearest_map;  ///< of kNoRoute: the reachable place nearest to the goal
+};
+
+/// Finds ways for a round robot. The way is searched on the coarse cells with the full margin, then pulled
+/// taut in full resolution, where the pruning margin is enough. A route that starts where the robot has too
+/// little room begins with the way out of there. Work is bounded by PlannerConfig::most_expansions.
+///
+/// Keeps its memory from one call to the next: 8 bytes for 4 x 4 cells of the map's box, and 6 more for
+/// reach(). Threads: one at a time.
+class PathPlanner {
+ public:
+  PathPlanner(const PlannerConfig& config, double robot_radius_m)
+      : config_(config), robot_radius_m_(robot_radius_m) {}
+
+  Plan plan(const Costmap& costmap, const PlanRequest& request);
+
+  /// The first leg of a polyline that does not keep the pruning margin. Of the way out of a tight place, up
+  /// to kWayOut_m from the first point, only what is occupied counts. What is unknown is left to the caller.
+  std::optional<std::size_t> first_blocked_leg(const Costmap& costmap,
+                                               std::span<const Vector2> route_map) const;
+
+  /// How far it is from `start` to everywhere, over known ground, and no farther than `most_m`. Good until
+  /// the next call.
+  const RouteLengths& reach(const Costmap& costmap, const Vector2& start_map,
+                            double most_m = std::numeric_limits<double>::infinity());
+
+ private:
+  /// What a search came to.
+  struct Found {
+    std::size_t end = 0;          ///< the coarse cell to go to, or that nearest to the goal
+    std::optional<Vector2> last;  ///< where the route ends, when near enough to the goal
+    bool exactly = false;         ///< at the goal itself
+    bool gave_up = false;         ///< the work was too much
+  };
+  Ground cells(Unknown unknown) const { return {config_, robot_radius_m_ + config_.margin_m, unknown}; }
+  Ground legs(Unknown unknown) const { return {config_, robot_radius_m_ + config_.prune_margin_m, unknown}; }
+  Found search(const Costmap& costmap, const Ground& cells, const Ground& legs, const Vector2& from,
+               const Vector2& goal);
+  std::vector<Vector2> centres_to(const Costmap& costmap, std::size_t end) const;
+
+  PlannerConfig config_;
+  double robot_radius_m_;
+  CoarseSearch search_;
+  RouteLengths lengths_;
+};
+
+}  // namespace dynslam

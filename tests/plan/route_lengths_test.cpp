@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "plan/route_lengths.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "plan/drawn_floor.h"
+
+namespace dynslam {
+namespace {
+
+const std::vector<std::string> kRooms{"##############################",  //
+                                      "#.............#..............#",  //
+                                      "#.............#..............#",  //
+                                      "#.............#..............#",  //
+                                      "#.............#..............#",  //
+                                      "#.............#..............#",  //
+                                      "#............................#",  //
+                                      "#............................#",  //
+                                      "#............................#",  //
+                                      "#............................#",  //
+                                      "#............................#",  //
+                                      "#............................#",  //
+                                      "##############################",  //
+                                      "#............................#",  //
+                                      "#............................#",  //
+                                      "#............................#",  //
+                                      "#............................#",  //
+                                      "#............................#",  //
+                                      "##############################"};
+
+TEST(RouteLengths, AreThoseOfTheRoutes) {
+  DrawnFloor floor = floor_of(kRooms);
+  const Costmap map = floor.costmap();
+  PathPlanner planner({}, kRadius_m);
+  const Vector2 start(0.5, 1.5);
+  const RouteLengths lengths = planner.reach(map, start);
+  int reached = 0;
+  for (double y = 0.9; y < 1.7; y += 0.17) {
+    for (double x = 0.3; x < 2.8; x += 0.31) {
+      const Plan plan = planner.plan(map, {start, {x, y}});
+      const auto length_m = lengths.length_m({x, y});
+      if (plan.outcome != PlanOutcome::kFound) continue;
+      ASSERT_TRUE(length_m);
+      EXPECT_NEAR(*length_m, plan.length_m, 0.1 + 0.06 * plan.length_m) << x << ", " << y;
+      ++reached;
+    }
+  }
+  EXPECT_GT(reached, 18);
+}
+
+TEST(RouteLengths, EndAtWallsAndAtTheLimit) {
+  DrawnFloor floor = floor_of(kRooms);
+  const Costmap map = floor.costmap();
+  PathPlanner planner({}, kRadius_m);
+  const RouteLengths all = planner.reach(map, {0.5, 1.0});
+  EXPECT_TRUE(all.length_m({2.5, 1.5}));
+  EXPECT_FALSE(all.length_m({1.5, 0.3})) << "the room below has no door";
+  EXPECT_FALSE(all.length_m({0.05, 1.0})) << "in a wall";
+  EXPECT_NEAR(*all.length_m({0.5, 1.0}), 0.0, 1e-6);
+  const RouteLengths near = planner.reach(map, {0.5, 1.0}, 1.0);
+  EXPECT_TRUE(near.length_m({1.4, 1.0}));
+  EXPECT_FALSE(near.length_m({1.7, 1.0}));
+}
+
+TEST(RouteLengths, NamesTheReachedPlaceNearestToAPoint) {
+  DrawnFloor floor = floor_of(kRooms);
+  const Costmap map = floor.costmap();
+  PathPlanner planner({}, kRadius_m);
+  const RouteLengths& lengths = planner.reach(map, {0.5, 1.0});
+  const auto nearest = lengths.nearest_reached({1.5, 0.3}, 1.0);
+  ASSERT_TRUE(nearest);
+  EXPECT_NEAR(nearest->x(), 1.5, 0.1);
+  EXPECT_NEAR(nearest->y(), 0.94, 0.05);
+  EXPECT_GE(map.clearance_m(*nearest), kRadius_m + 0.04 - 0.004);
+  EXPECT_FALSE(lengths.nearest_reached({1.5, 0.3}, 0.4));
+  EXPECT_TRUE(lengths.nearest_reached({100, 100}, std::numeric_limits<double>::infinity()));
+}
+
+TEST(RouteLengths, NonsenseReachesNothing) {
+  DrawnFloor floor = floor_of(kRooms);
+  const Costmap map = floor.costmap();
+  PathPlanner planner({}, kRadius_m);
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(RouteLengths().length_m({0, 0}));
+  EXPECT_FALSE(RouteLengths().nearest_reached({0, 0}, 1));
+  for (const Vector2& start : {Vector2(nan, 0), Vector2(inf, 0), Vector2(500, 0)})
+    EXPECT_FALSE(planner.reach(map, start).nearest_reached({1, 1}, 10));
+  const RouteLengths& lengths = planner.reach(map, {0.5, 1.0});
+  for (const Vector2& point : {Vector2(nan, 0), Vector2(inf, 0), Vector2(-1e300, 0)})
+    EXPECT_FALSE(lengths.length_m(point));
+  EXPECT_FALSE(lengths.nearest_reached({nan, 0}, 10));
+  EXPECT_FALSE(lengths.nearest_reached({1, 1}, nan));
+}
+
+}  // namespace
+}  // namespace dynslam
