@@ -58,7 +58,9 @@ Config make_config(const std::optional<std::string>& path, const std::vector<std
   if (path) append(problems, read_toml(read_text(*path), *path, keys));
   for (const std::string& setting : settings) append(problems, read_setting(setting, keys));
   if (problems.empty())
-    for (const auto& problem : {config.slam.problem(), config.server.problem(), config.access.problem()})
+    for (const auto& problem :
+         {config.slam.problem(), config.drive.clearance.problem(), config.drive.follower.problem(),
+          config.server.problem(), config.access.problem(), config.autopilot.problem()})
       if (problem) problems.push_back(*problem);
   if (!problems.empty()) throw ConfigError(std::move(problems));
   return config;

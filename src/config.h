@@ -9,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "autopilot/autopilot.h"
 #include "base/config_field.h"
 #include "base/error.h"
 #include "base/scan.h"
@@ -49,6 +50,10 @@ struct Config {
   ServerConfig server;
   RecorderConfig recorder;
   AccessConfig access;
+  AutopilotConfig autopilot;
+  NavigationConfig navigation;
+  ExplorationConfig exploration;
+  PlannerConfig planner;
 
   /// Calls `visit(name of the table, struct with fields)` for each table.
   template <class Self, class Visit>
@@ -59,6 +64,10 @@ struct Config {
     visit(std::string_view("server"), self.server);
     visit(std::string_view("recorder"), self.recorder);
     visit(std::string_view("access"), self.access);
+    visit(std::string_view("autopilot"), self.autopilot);
+    visit(std::string_view("navigation"), self.navigation);
+    visit(std::string_view("exploration"), self.exploration);
+    visit(std::string_view("planner"), self.planner);
   }
 };
 

@@ -69,7 +69,10 @@ int run(int argc, char** argv) {
   sim->add_option("--duration", sim_options.duration_s, "most of simulated time, in seconds")
       ->type_name("S")
       ->check(CLI::Range(0.1, 1e6));
-  sim->add_option("--mission", sim_options.mission, "what to do by itself: tour")->type_name("NAME");
+  sim->add_option("--mission", sim_options.mission,
+                  "what to do by itself: tour, explore, or goals:N, to explore and then drive to N places "
+                  "drawn by lot")
+      ->type_name("NAME");
   sim->add_option("--port", sim_options.port,
                   "where to serve, in place of server.port; 0: any port that is free")
       ->type_name("N")

@@ -79,6 +79,8 @@ void stage_results(OutputFolder& out, MappingResult& result, const nlohmann::jso
   out.stage("trajectory_live.tum", to_tum(result.trajectory_live));
   MapPictureLayers layers;
   layers.path_map = path_of(result.trajectory);
+  layers.route_map = result.route_map;
+  layers.places_map = result.places_map;
   const TrinaryMap map = trinary_map(result.map);
   result.map = {};  // the cells were copied: on a small computer the memory is better used for the picture
   out.stage("map.pgm", [&](const ByteSink& sink) { write_pgm(map, sink); });

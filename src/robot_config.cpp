@@ -10,6 +10,8 @@ RobotConfig robot_config(const Config& config) {
   robot.slam = config.slam;
   robot.drive = config.drive;
   robot.lidar_mount = config.lidar.mount();
+  robot.autopilot = {config.autopilot, config.navigation, config.exploration, config.planner,
+                     config.drive.body.radius_m()};
   robot.recorder = config.recorder;
   robot.recording_about = {"dynslam " DYNSLAM_VERSION, {{"config", config_json(config).dump()}}};
   return robot;

@@ -2,14 +2,17 @@
 #include "sim_command.h"
 
 #include <algorithm>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include "errand_scripts.h"
 #include "io/safe_file.h"
 #include "log_tap.h"
 #include "progress_bar.h"
@@ -18,7 +21,8 @@
 #include "robot/steady_memory.h"
 #include "serve.h"
 #include "sim/disturbance.h"
-#include "tour_mission.h"
+#include "sim_mission.h"
+#include "tour_script.h"
 
 namespace dynslam {
 namespace {
@@ -39,7 +43,7 @@ World world_of(const SimOptions& options) {
 }
 
 /// What ends a mission from outside.
-std::optional<MissionEnd> turn(TourMission& mission) {
+std::optional<MissionEnd> turn(SimMission& mission) {
   if (stop_signal != 0) return MissionEnd{"stopped", "asked to"};
   return mission.turn();
 }
@@ -51,8 +55,32 @@ void warn_of_recording(const Ports& ports) {
     spdlog::warn("the recording is not whole: {}", recording->trouble);
 }
 
+constexpr const char* kNoMission = ": the missions are tour, explore, and goals:N with up to 10000 goals";
+
+/// The N of goals:N.
+std::size_t goals_of(const std::string& mission) {
+  const std::string_view digits = std::string_view(mission).substr(std::string_view("goals:").size());
+  std::size_t goals = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), goals);
+  if (error != std::errc() || end != digits.data() + digits.size() || goals < 1 || goals > 10000)
+    throw InputError("--mission " + mission + kNoMission);
+  return goals;
+}
+
+/// What the robot is to do; `tour` when that is a tour, which has to yield to people.
+std::unique_ptr<MissionScript> script_of(const SimOptions& options, const World& world, TourScript*& tour) {
+  const std::string& mission = options.mission;
+  if (mission.starts_with("goals:")) return std::make_unique<GoalsScript>(goals_of(mission), options.seed);
+  if (mission == "explore") return std::make_unique<ExploreScript>();
+  if (mission.empty() && !options.headless) return std::make_unique<WaitingScript>();
+  if (!mission.empty() && mission != "tour") throw InputError("--mission " + mission + kNoMission);
+  auto script = std::make_unique<TourScript>(world, options.laps);
+  tour = script.get();
+  return script;
+}
+
 /// All in this thread, as fast as it goes, repeatable to the bit.
-MissionEnd run_stepped(TourMission& mission, SteppedClock& clock, ProgressBar& bar) {
+MissionEnd run_stepped(SimMission& mission, SteppedClock& clock, ProgressBar& bar) {
   while (true) {
     clock.set(clock.now() + kStep);
     if (auto end = turn(mission)) return *end;
@@ -62,10 +90,10 @@ MissionEnd run_stepped(TourMission& mission, SteppedClock& clock, ProgressBar& b
 }
 
 /// With the robot's threads. Ends the program where one of them hangs.
-MissionEnd run_live(TourMission& mission, const Clock& clock) {
+MissionEnd run_live(SimMission& mission, const Clock& clock) {
   mission.robot().start();
   std::optional<MissionEnd> end;
-  while (!end && !mission.robot().wait(clock.steady(mission.next_command()))) end = turn(mission);
+  while (!end && !mission.robot().wait(clock.steady(mission.next_turn()))) end = turn(mission);
   const Robot::Ending ending = mission.robot().stop();
   if (ending.hangs) {
     spdlog::critical("a device does not come back; the motors are off");
@@ -75,7 +103,7 @@ MissionEnd run_live(TourMission& mission, const Clock& clock) {
   return end.value_or(MissionEnd{"stopped", "asked to"});
 }
 
-void tell(const SimOptions& options, const nlohmann::json& figures, const TourMission& mission) {
+void tell(const SimOptions& options, const nlohmann::json& figures, const SimMission& mission) {
   const MappingResult& result = mission.result;
   std::printf(
       "%s: mission %s after %.0f s (%s), %.1f m driven, %d contacts, mapped from %zu scans in %.2f s\n",
@@ -92,8 +120,6 @@ void tell(const SimOptions& options, const nlohmann::json& figures, const TourMi
 int run_sim(const SimOptions& options, const Config& config) {
   keep_memory_steady();  // a robot runs for months; a replay is better off with memory that it need not ask
                          // for again
-  if (!options.mission.empty() && options.mission != "tour")
-    throw InputError("--mission " + options.mission + ": there is only 'tour' so far");
   std::optional<OutputFolder> out;
   if (options.out) out.emplace(*options.out);
   std::signal(SIGINT, on_signal);
@@ -108,19 +134,22 @@ int run_sim(const SimOptions& options, const Config& config) {
     stepped = steps.get();
     clock = std::move(steps);
   }
-  const bool waits = options.mission.empty() && !options.headless;
-  TourMission mission(
-      {world_of(options), options.seed, options.laps, options.duration_s, options.out.has_value(), waits},
-      config, *clock);
+  const World world = world_of(options);
+  TourScript* tour = nullptr;
+  auto script = script_of(options, world, tour);
+  Config own = config;
+  if (!options.mission.empty() && !tour) own.autopilot.when_explored = "stay";  // or it would never end
+  SimMission mission({world, options.seed, options.duration_s, options.out.has_value()}, std::move(script),
+                     own, *clock);
   const LogTap tap(mission.robot().ports(), *clock);
   if (out) mission.robot().ports().recording_wish.put({true, out->reserve("recording.mcap")});
   std::optional<Serving> serving;
   if (!options.headless) {
     if (stepped) throw InputError("--speed 0 knows no time in which to serve: it goes with --headless");
     ServeOptions serve{options.port, options.world};
-    serve.autopilot.drives = [waits] { return !waits; };
-    serving.emplace(mission.robot().ports(), *clock, config, serve);
-    mission.yield_to([&serving] { return serving && serving->is_steered(); });
+    serve.autopilot.drives = [tour] { return tour != nullptr; };
+    serving.emplace(mission.robot().ports(), *clock, own, serve);
+    if (tour) tour->yield_to([&serving] { return serving && serving->is_steered(); });
   }
   MissionEnd end;
   if (stepped) {

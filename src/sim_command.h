@@ -17,7 +17,8 @@ struct SimOptions {
   std::optional<std::string> out;
   bool headless = false;
   std::optional<double> duration_s;  ///< most of simulated time
-  std::string mission;               ///< "tour"; empty: waits for a driver, or with nobody looking on a tour
+  std::string mission;               ///< "tour", "explore" or "goals:N"; empty: waits for a driver, or with
+                                     ///< nobody looking on a tour
   std::optional<int> port;           ///< to serve on, in place of the config's
   int laps = 1;                      ///< how often the tour is driven
   std::vector<std::string> faults, kicks;  ///< see sim/disturbance.h

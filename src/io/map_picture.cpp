@@ -25,6 +25,8 @@ constexpr Rgb kUnknown{211, 220, 231};
 constexpr Rgb kInk{62, 74, 92};
 constexpr Rgb kStart{34, 160, 84};
 constexpr Rgb kEnd{222, 45, 52};
+constexpr Rgb kRoute{16, 138, 92};
+constexpr Rgb kPlace{240, 140, 20};
 constexpr Rgb kPathColours[] = {{46, 91, 219}, {140, 70, 214}, {226, 62, 140}, {245, 134, 42}};
 
 constexpr int kBandRows = 32;
@@ -147,19 +149,35 @@ void colour_path(std::vector<StrokePoint>& points) {
   }
 }
 
+/// `share` of a line's width across.
+Stroke disc(const PictureLayout& l, const StrokePoint& at, Rgb colour, float share, float halo) {
+  return {{{at.x, at.y, colour}}, share * l.line_px, halo * l.line_px};
+}
+
+void append_route(const TrinaryMap& map, const PictureLayout& l, const MapPictureLayers& layers,
+                  std::vector<Stroke>& out) {
+  for (const StrokePoint& p : thin_path(map, l, layers.places_map))
+    out.push_back(disc(l, p, kPlace, 3.0F, 0.5F));
+  std::vector<StrokePoint> points = thin_path(map, l, layers.route_map);
+  if (points.empty()) return;
+  for (StrokePoint& p : points) p.colour = kRoute;
+  out.push_back({points, l.line_px, 0.35F * l.line_px});
+  for (const StrokePoint& p : points) out.push_back(disc(l, p, kRoute, 2.4F, 0.3F));
+  out.push_back(disc(l, points.back(), kRoute, 5.0F, 0.4F));
+  out.push_back(disc(l, points.back(), kFloor, 2.4F, 0.0F));
+}
+
 void append_path(const TrinaryMap& map, const PictureLayout& l, const MapPictureLayers& layers,
                  std::vector<Stroke>& out) {
   std::vector<StrokePoint> points = thin_path(map, l, layers.path_map);
   if (points.empty()) return;
   colour_path(points);
-  const auto disc = [&](const StrokePoint& at, Rgb colour, float share, float halo) {
-    out.push_back({{{at.x, at.y, colour}}, share * l.line_px, halo * l.line_px});
-  };
   const StrokePoint start = points.front(), end = points.back();
   out.push_back({std::move(points), l.line_px, 0.35F * l.line_px});
-  disc(start, kStart, 7.0F, 0.4F);  // wide enough to be seen around an end at the same place
-  disc(start, kFloor, 4.6F, 0.0F);
-  disc(end, kEnd, 3.6F, 0.4F);
+  out.push_back(
+      disc(l, start, kStart, 7.0F, 0.4F));  // wide enough to be seen around an end at the same place
+  out.push_back(disc(l, start, kFloor, 4.6F, 0.0F));
+  out.push_back(disc(l, end, kEnd, 3.6F, 0.4F));
 }
 
 void append_scale_bar(const TrinaryMap& map, const PictureLayout& l, std::vector<Stroke>& out) {
@@ -183,6 +201,7 @@ void append_scale_bar(const TrinaryMap& map, const PictureLayout& l, std::vector
 std::string to_png(const TrinaryMap& map, const MapPictureLayers& layers) {
   const PictureLayout layout = lay_out(map);
   std::vector<Stroke> strokes;
+  append_route(map, layout, layers, strokes);
   append_path(map, layout, layers, strokes);
   append_scale_bar(map, layout, strokes);
 

@@ -23,7 +23,8 @@ struct MappingResult {
   std::size_t local_maps = 0;
   std::size_t local_maps_active = 0;
   std::uint64_t loop_closures = 0;
-  GraphPicture graph;  ///< without the robot's path
+  std::vector<Vector2> route_map, places_map;  ///< that the autopilot had at the end
+  GraphPicture graph;                          ///< without the robot's path
 
   std::uint64_t inserted = 0;               ///< scans drawn into the map; the others only got a pose
   std::vector<float> scan_ms;               ///< of each scan, reading not included

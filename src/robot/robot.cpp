@@ -17,6 +17,7 @@ Robot::Robot(Devices devices, const RobotConfig& config, const Clock& clock)
       clock_(clock),
       slam_(config.slam),
       slam_stage_(slam_, ports_, clock),
+      autopilot_(config.autopilot, config.drive, clock, ports_, newest_imu_),
       control_(devices_.motors.get(), devices_.pins.get(), config.drive, clock, ports_, newest_imu_,
                devices_.imu != nullptr),
       recorder_(config.recorder, config.recording_about, clock, ports_) {
@@ -65,6 +66,12 @@ void Robot::start() {
   if (camera_) start_thread("camera", [this] { poll_camera(); });
   start_thread("slam", [this] { slam_stage_.turn(); });
   start_thread("graph", [this] { slam_stage_.graph_turn(); });
+  start_thread("autopilot", [this] {
+    if (!stop_.wait(clock_.steady(autopilot_.plan_due()))) autopilot_.plan_turn();
+  });
+  start_thread("pilot", [this] {
+    if (!stop_.wait(clock_.steady(autopilot_.pilot_due()))) autopilot_.pilot_turn();
+  });
 }
 
 /// A thread takes turns until it is asked to stop, one at the least: the robot may have ended before the
@@ -150,6 +157,8 @@ void Robot::step() {
   }
   if (camera_ && ports_.watchers > 0) camera_->turn(stop_);
   slam_stage_.turn();
+  if (clock_.now() >= autopilot_.plan_due()) autopilot_.plan_turn();
+  if (clock_.now() >= autopilot_.pilot_due()) autopilot_.pilot_turn();
   if (clock_.now() >= control_.due()) control_turn();
 }
 

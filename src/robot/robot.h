@@ -11,6 +11,7 @@
 
 #include "device/devices.h"
 #include "drive/drive_config.h"
+#include "robot/autopilot_stage.h"
 #include "robot/control_stage.h"
 #include "robot/ports.h"
 #include "robot/recorder_stage.h"
@@ -23,6 +24,7 @@ namespace dynslam {
 struct RobotConfig {
   SlamConfig slam;
   DriveConfig drive;
+  AutopilotSetup autopilot;
   LidarMount lidar_mount;
   RecorderConfig recorder;
   RecordingAbout recording_about;
@@ -82,6 +84,7 @@ class Robot {
   Slam slam_;
   SlamStage slam_stage_;
   SlamStage::Notice notice_;
+  AutopilotStage autopilot_;
   ControlStage control_;
   RecorderStage recorder_;
   std::uint64_t command_recorded_ = 0;  ///< version of the port; the thread of the control

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tour_mission.h"
+#include "sim_mission.h"
 
 #include <algorithm>
 
@@ -10,33 +10,24 @@
 namespace dynslam {
 namespace {
 
-constexpr Duration kCommandEvery = std::chrono::milliseconds(50);
+constexpr Duration kTurnEvery = std::chrono::milliseconds(50);
 constexpr Duration kFetchTruthEvery = std::chrono::seconds(60);
 constexpr double kLongest_s = 24 * 3600.0;
 constexpr double kFloorStep_m = 0.1;
 /// Ten scans a second, five minutes of them.
 constexpr std::size_t kPathOfTheHour = 3000;
 
-/// As seen from the robot's start, lap after lap.
-std::vector<Vector2> points_map(const World& world, int laps) {
-  std::vector<Vector2> points;
-  for (int lap = 0; lap < laps; ++lap) {
-    for (const Vector2& p : world.tour) points.push_back(world.world_T_start.inverse() * p);
-  }
-  return points;
-}
-
 }  // namespace
 
-TourMission::TourMission(const TourMissionOptions& options, const Config& config, const Clock& clock)
+SimMission::SimMission(const SimMissionOptions& options, std::unique_ptr<MissionScript> script,
+                       const Config& config, const Clock& clock)
     : clock_(clock),
       begin_(clock.now()),
       limit_s_(options.limit_s.value_or(kLongest_s)),
       keeps_trajectories_(options.keeps_trajectories),
-      waits_(options.waits),
+      script_(std::move(script)),
       simulator_(std::make_shared<Simulator>(options.world, clock, options.seed)),
-      robot_(make_devices(simulator_), robot_config(config), clock),
-      tour_(points_map(options.world, options.laps)) {
+      robot_(make_devices(simulator_), robot_config(config), clock) {
   if (!keeps_trajectories_) robot_.slam().keep_path(kPathOfTheHour);
   robot_.on_scan([this](const ScanResult& scan) {
     ++scans_;
@@ -45,51 +36,54 @@ TourMission::TourMission(const TourMissionOptions& options, const Config& config
   });
 }
 
-std::optional<MissionEnd> TourMission::turn() {
+std::optional<MissionEnd> SimMission::turn() {
   const Time now = clock_.now();
   if (keeps_trajectories_ && now >= next_truth_) fetch_truth(now);
   if (passed_s() >= limit_s_) return MissionEnd{"timeout", "the time is up"};
-  if (tour_.done() && !waits_) return MissionEnd{"done", skipped_text()};
-  if (tour_.gave_up()) return MissionEnd{"stopped", *tour_.gave_up()};
-  if (now < next_command_) return std::nullopt;
-  next_command_ = now + kCommandEvery;
-  if (waits_ || somebody_drives_()) return std::nullopt;
-  const auto world = robot_.ports().world.get().value;
-  const auto drive = robot_.ports().drive.get().value;
-  const Twist twist = world && drive ? tour_.next(now, world->pose, drive->verdict) : Twist{};
-  robot_.ports().command.put({++seq_, twist, now});
-  return std::nullopt;
+  if (now < next_turn_) return std::nullopt;
+  next_turn_ = now + kTurnEvery;
+  driving_.note(now, robot_.ports());
+  return script_->turn(now, robot_.ports(), *simulator_);
 }
 
-nlohmann::json TourMission::finish(const MissionEnd& end) {
+nlohmann::json SimMission::finish(const MissionEnd& end) {
   if (keeps_trajectories_) fetch_truth(clock_.now());
   robot_.finish();
   take_result(robot_.slam(), result);
   result.counters = robot_.counters();
+  if (const auto status = robot_.ports().autopilot.get().value) {
+    result.route_map = status->route_map;
+    for (const PlaceShown& place : status->places) result.places_map.push_back(place.point_map);
+  }
   const SimTruth truth = simulator_->truth();
-  return {{"result", end.result},
-          {"reason", end.reason},
-          {"time_s", passed_s()},
-          {"distance_m", truth.distance_m},
-          {"contacts", truth.contacts},
-          {"kicks", truth.kicks},
-          {"reachable_floor_mapped", reachable_floor_mapped()},
-          {"goals",
-           {{"tried", tour_.reached() + tour_.skipped()},
-            {"reached", tour_.reached()},
-            {"no_route_right", 0},  // a tour is driven without routes
-            {"failed", tour_.skipped()}}},
-          {"verdicts", verdicts()}};
+  const GoalCounts goals = script_->goals();
+  nlohmann::json figures = {{"result", end.result},
+                            {"reason", end.reason},
+                            {"time_s", passed_s()},
+                            {"distance_m", truth.distance_m},
+                            {"contacts", truth.contacts},
+                            {"kicks", truth.kicks},
+                            {"reachable_floor_mapped", reachable_floor_mapped()},
+                            {"goals",
+                             {{"tried", goals.tried},
+                              {"reached", goals.reached},
+                              {"no_route_right", goals.no_route_right},
+                              {"failed", goals.failed}}},
+                            {"longest_wait_s", driving_.longest_wait_s()},
+                            {"reversals_per_m", driving_.reversals_per_m()},
+                            {"verdicts", verdicts()}};
+  figures.update(script_->details());
+  return figures;
 }
 
-std::vector<StampedPose> TourMission::truth_map() const {
+std::vector<StampedPose> SimMission::truth_map() const {
   const Pose2 map_T_world = simulator_->world().world_T_start.inverse();
   std::vector<StampedPose> poses;
   for (const TruePose& p : truth_) poses.push_back({p.stamp, map_T_world * p.world_T_robot});
   return poses;
 }
 
-void TourMission::fetch_truth(Time now) {
+void SimMission::fetch_truth(Time now) {
   constexpr Duration kJustBefore = std::chrono::milliseconds(10);
   for (const TruePose& p :
        simulator_->truth_since(truth_.empty() ? begin_ - kJustBefore : truth_.back().stamp))
@@ -97,14 +91,8 @@ void TourMission::fetch_truth(Time now) {
   next_truth_ = now + kFetchTruthEvery;
 }
 
-std::string TourMission::skipped_text() const {
-  if (tour_.skipped() == 0) return "all points reached";
-  return std::to_string(tour_.skipped()) + (tour_.skipped() == 1 ? " point" : " points") +
-         " could not be reached";
-}
-
 /// The share of the floor that the robot could have driven over, and that its map shows as free.
-double TourMission::reachable_floor_mapped() {
+double SimMission::reachable_floor_mapped() {
   const std::vector<Vector2> floor = simulator_->reachable_floor(kFloorStep_m);
   if (floor.empty()) return 0.0;
   const Pose2 map_T_world = simulator_->world().world_T_start.inverse();
@@ -115,7 +103,7 @@ double TourMission::reachable_floor_mapped() {
          static_cast<double>(floor.size());
 }
 
-nlohmann::json TourMission::verdicts() const {
+nlohmann::json SimMission::verdicts() const {
   nlohmann::json all = nlohmann::json::array();
   for (const DriveControl::Transition& t : robot_.control().transitions())
     all.push_back({{"time_s", to_seconds(t.time - begin_)},

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "autopilot/autopilot_config.h"
+#include "autopilot/exploration.h"
+#include "autopilot/frontier_map.h"
+#include "autopilot/hindrance.h"
+#include "autopilot/navigator.h"
+#include "autopilot/status.h"
+#include "autopilot/visit_map.h"
+#include "grid/world_state.h"
+#include "plan/costmap.h"
+
+namespace dynslam {
+
+/// All that can be set about driving by itself.
+struct AutopilotSetup {
+  AutopilotConfig autopilot;
+  NavigationConfig navigation;
+  ExplorationConfig exploration;
+  PlannerConfig planner;
+  double robot_radius_m = 0.2;
+};
+
+/// What an autopilot goes by.
+struct AutopilotInputs {
+  std::span<const Order> orders;               ///< new ones
+  std::shared_ptr<const WorldState> world;     ///< null: none yet
+  std::shared_ptr<const MapNotes> notes = {};  ///< null: none
+  FollowReport follow = {};
+  Condition condition = {};
+  bool is_steered = false;  ///< a person drives
+};
+
+/// Decides where to drive (thesis, chapter 6): navigation brings the robot to a place that people chose,
+/// exploration chooses places itself, until all is seen; then it visits what was not seen for longest. Three
+/// states: it drives, has nothing to do, or stopped and says why. People always have precedence: who takes
+/// the wheel ends what it does.
+///
+/// Pure: called some times a second, with the time. The route it wants is for a PathFollower. One thread.
+class Autopilot {
+ public:
+  explicit Autopilot(const AutopilotSetup& setup);
+
+  const AutopilotStatus& turn(Time now, const AutopilotInputs& in);
+
+  /// What is to be driven; nothing: stand, or turn() says to look round.
+  const std::optional<DriveTask>& task() const { return navigator_.task(); }
+  /// On the spot, to find out where it is; 0: no need.
+  double look_round_radps() const { return look_round_radps_; }
+  bool is_on() const { return status_.phase != AutopilotPhase::kOff; }
+  /// Nothing that can be reached is left to be seen for the first time.
+  bool is_explored() const { return explored_; }
+
+ private:
+  void take(const Order& order);
+  void observe(Time now, const AutopilotInputs& in);
+  void drive(Time now, const AutopilotInputs& in);
+  bool bear(Time now, const AutopilotInputs& in, const Hindrance& hindrance);
+  bool set_out(Time now, const Vector2& robot_map);
+  bool explore(Time now, const Vector2& robot_map);
+  void find_places(Time now, const Vector2& robot_map);
+  void judge_explored(Time now);
+  void finish_exploring();
+  void set_out_to(const Destination& to, bool stops);
+  void arrived(Time now, const std::string& remark);
+  void failed(Time now, const Navigator::Report& report);
+  void go_home();
+  void end(AutopilotPhase phase, const std::string& reason);
+  bool is_seen(const Place& place) const;
+  void show(Time now, const AutopilotInputs& in);
+
+  AutopilotConfig config_;
+  PathPlanner planner_;
+  Navigator navigator_;
+  Exploration exploration_;
+  FrontierMap frontier_map_;
+  VisitMap visits_;
+  std::optional<Costmap> costmap_;  ///< from the first map on
+  GridSnapshot map_;
+  std::shared_ptr<const MapNotes> notes_;
+
+  Order errand_ = SwitchOff{};
+  bool flees_ = false;               ///< goes home to be charged
+  std::size_t stop_ = 0;             ///< of a patrol
+  std::size_t failed_stops_ = 0;     ///< one after the other
+  std::optional<Time> rests_until_;  ///< at a stop
+  std::optional<Place> place_;       ///< that it explores
+  std::vector<Place> places_;
+  std::optional<Time> chosen_at_;
+  std::deque<Vector2> once_reachable_;  ///< frontiers that there was a way to, in the map
+  bool waits_for_door_ = false;         ///< to some there is none any more
+  std::optional<Time> seems_explored_since_;
+  std::optional<Time> hindered_since_;
+  bool explored_ = false;
+  double look_round_radps_ = 0.0;
+  AutopilotStatus status_;
+};
+
+}  // namespace dynslam

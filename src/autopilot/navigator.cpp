@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "autopilot/navigator.h"
+
+#include <utility>
+
+namespace dynslam {
+namespace {
+
+/// A route that turned out to be blocked is not made anew more often than this.
+constexpr Duration kReplanSoon = std::chrono::milliseconds(400);
+/// Whoever stands in the only way when the robot wants to set out gets so long to step aside.
+constexpr double kFirstPatience_s = 3.0;
+/// A new route must be shorter by so much, or the robot would waver between two ways round.
+constexpr double kBetter = 0.9;
+/// The follower knows how fast it drives.
+constexpr double kNoLimit_mps = 100.0;
+
+/// What stands in the way may go; this does not.
+bool is_hopeless(const Costmap& costmap, const Vector2& goal_map) {
+  if (!goal_map.allFinite() || !costmap.contains(goal_map)) return true;
+  return costmap.state(goal_map) == CellState::kUnknown ||
+         costmap.is_forbidden(cell_at(goal_map, costmap.cell_size_m()));
+}
+
+}  // namespace
+
+void Navigator::set_out(const Destination& to, bool stops) {
+  give_up();
+  ++errands_;
+  to_ = to;
+  stops_ = stops;
+}
+
+void Navigator::give_up() {
+  to_.reset();
+  task_.reset();
+  last_plan_.reset();
+  planned_at_.reset();
+  held_up_since_.reset();
+  had_route_ = false;
+}
+
+Navigator::Report Navigator::turn(Time now, const Pose2& map_T_robot, const Costmap& costmap,
+                                  const FollowReport& follow) {
+  if (!to_) return {};
+  const bool is_news = task_ && follow.task == task_->id;
+  if (is_news && follow.state == Following::kArrived)
+    return end(State::kArrived, last_plan_->outcome == PlanOutcome::kNearby ? last_plan_->reason : "");
+  if (is_news && follow.state == Following::kStuck) return end(State::kStuck, follow.reason);
+  if (is_route_due(now, costmap, follow)) plan(now, map_T_robot, costmap, follow);
+  if (!task_) {
+    if (is_hopeless(costmap, to_->point_map)) return end(State::kNoRoute, last_plan_->reason);
+    return wait(now, last_plan_->reason);
+  }
+  if (is_news && (follow.state == Following::kBlocked || follow.state == Following::kWaiting))
+    return wait(now, follow.reason);
+  held_up_since_.reset();
+  return {State::kDriving};
+}
+
+/// On time, and at once when the route ends in something.
+bool Navigator::is_route_due(Time now, const Costmap& costmap, const FollowReport& follow) const {
+  if (!planned_at_ || now < *planned_at_ || now >= *planned_at_ + from_seconds(config_.replan_s)) return true;
+  if (now < *planned_at_ + kReplanSoon) return false;
+  return !task_ || is_blocked(costmap, follow);
+}
+
+bool Navigator::is_blocked(const Costmap& costmap, const FollowReport& follow) const {
+  const bool is_news = follow.task == task_->id;
+  if (is_news && follow.state == Following::kBlocked) return true;
+  return planner_.first_blocked_leg(costmap, is_news ? follow.route_map : task_->route_map).has_value();
+}
+
+void Navigator::plan(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow) {
+  planned_at_ = now;
+  Plan plan = planner_.plan(costmap, {map_T_robot.translation(), to_->point_map});
+  if (plan.outcome == PlanOutcome::kNoRoute) {
+    task_.reset();
+  } else if (!task_ || is_better(plan, costmap, follow)) {
+    had_route_ = true;
+    const bool exact = plan.outcome == PlanOutcome::kFound;
+    task_ = DriveTask{errands_, plan.route_map, exact ? to_->yaw_rad : std::nullopt, kNoLimit_mps, stops_};
+  } else {
+    return;  // the plan that is being driven stays the last one
+  }
+  last_plan_ = std::move(plan);
+}
+
+bool Navigator::is_better(const Plan& plan, const Costmap& costmap, const FollowReport& follow) const {
+  if (follow.task != task_->id || is_blocked(costmap, follow)) return true;
+  return plan.length_m < kBetter * follow.remaining_m;
+}
+
+Navigator::Report Navigator::wait(Time now, const std::string& reason) {
+  if (!held_up_since_ || now < *held_up_since_) held_up_since_ = now;
+  const double patience_s = had_route_ ? config_.patience_s : kFirstPatience_s;
+  if (now - *held_up_since_ > from_seconds(patience_s)) return end(State::kNoRoute, reason);
+  return {State::kWaiting, reason};
+}
+
+Navigator::Report Navigator::end(State state, const std::string& reason) {
+  Report report{state, reason, last_plan_ ? last_plan_->nearest_map : std::nullopt};
+  give_up();
+  return report;
+}
+
+}  // namespace dynslam

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "autopilot/order.h"
+#include "base/config_field.h"
+#include "base/time.h"
+#include "drive/drive_task.h"
+#include "drive/path_follower.h"
+#include "plan/path_planner.h"
+
+namespace dynslam {
+
+/// Section [navigation] of the configuration.
+struct NavigationConfig {
+  double replan_s = 2.0;
+  double patience_s = 15.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit(Field{"replan_s", "so often a better route is looked for", 0.2, 60.0}, self.replan_s);
+    visit(Field{"patience_s", "a way that is blocked is waited for so long", 0.0, 600.0}, self.patience_s);
+  }
+};
+
+/// What the follower said last, of which errand.
+struct FollowReport {
+  std::uint64_t task = 0;
+  Following state = Following::kIdle;
+  double remaining_m = 0.0;
+  std::vector<Vector2> route_map = {};  ///< what is left of it, from the robot on
+  std::string reason = {};
+};
+
+/// Brings the robot to one destination: keeps a route to it good while the follower drives along it, and
+/// knows when to wait, and when there is no way. Pure; one thread.
+class Navigator {
+ public:
+  enum class State {
+    kIdle,
+    kDriving,
+    kWaiting,  ///< for the way to be free
+    kArrived,
+    kNoRoute,
+    kStuck,  ///< the wheels turn and the robot stays
+  };
+  struct Report {
+    State state = State::kIdle;
+    std::string reason = {};
+    std::optional<Vector2> nearest_map = {};  ///< kNoRoute: the point nearest to the destination that has one
+  };
+
+  Navigator(const NavigationConfig& config, PathPlanner& planner) : config_(config), planner_(planner) {}
+
+  /// `stops` at the destination; otherwise coming by is enough.
+  void set_out(const Destination& to, bool stops);
+  void give_up();
+  Report turn(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow);
+
+  /// What the follower is to do; nothing: stand.
+  const std::optional<DriveTask>& task() const { return task_; }
+  const std::optional<Destination>& destination() const { return to_; }
+
+ private:
+  bool is_route_due(Time now, const Costmap& costmap, const FollowReport& follow) const;
+  void plan(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow);
+  bool is_better(const Plan& plan, const Costmap& costmap, const FollowReport& follow) const;
+  bool is_blocked(const Costmap& costmap, const FollowReport& follow) const;
+  Report wait(Time now, const std::string& reason);
+  Report end(State state, const std::string& reason);
+
+  NavigationConfig config_;
+  PathPlanner& planner_;
+  std::uint64_t errands_ = 0;
+  std::optional<Destination> to_;
+  bool stops_ = true;
+  bool had_route_ = false;
+  std::optional<Plan> last_plan_;
+  std::optional<Time> planned_at_;
+  std::optional<Time> held_up_since_;
+  std::optional<DriveTask> task_;
+};
+
+}  // namespace dynslam

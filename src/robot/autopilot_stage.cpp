@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "robot/autopilot_stage.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace dynslam {
+namespace {
+
+/// What was planned longer ago than this is not driven: something hangs.
+constexpr Duration kPlanHolds = std::chrono::seconds(3);
+/// Older poses are not carried on.
+constexpr Duration kPoseHolds = std::chrono::milliseconds(800);
+/// Turns are measured over so long.
+constexpr Duration kTurnOver = std::chrono::milliseconds(100);
+
+}  // namespace
+
+AutopilotStage::AutopilotStage(const AutopilotSetup& setup, const DriveConfig& drive, const Clock& clock,
+                               Ports& ports, const Latest<ImuSample>& imu)
+    : clock_(clock),
+      ports_(ports),
+      imu_(imu),
+      autopilot_(setup),
+      plan_due_(clock.now()),
+      follower_(drive.follower, drive.body, drive.clearance),
+      pilot_due_(clock.now()) {}
+
+void AutopilotStage::plan_turn() {
+  const Time now = clock_.now();
+  std::vector<Order> orders;
+  while (auto order = ports_.orders.try_pop()) orders.push_back(std::move(*order));
+  AutopilotInputs in;
+  in.orders = orders;
+  in.world = ports_.world.get().value;
+  in.notes = ports_.map_notes.get().value;
+  if (const auto report = report_.get().value) in.follow = *report;
+  in.condition = condition(in.world);
+  in.is_steered = steered_.exchange(false) && orders.empty();
+  const AutopilotStatus& status = autopilot_.turn(now, in);
+  wanted_.put(
+      {now, status.phase == AutopilotPhase::kActive, autopilot_.task(), autopilot_.look_round_radps()});
+  ports_.autopilot.put(status);
+  plan_due_ = std::max(plan_due_ + kPlanEvery, now);
+}
+
+Condition AutopilotStage::condition(const std::shared_ptr<const WorldState>& world) const {
+  Condition c;
+  if (world) c.pose = world->pose;
+  if (const auto drive = ports_.drive.get().value) {
+    c.verdict = drive->verdict;
+    c.cause = drive->cause;
+    c.battery = drive->battery.level;
+    c.touches = drive->collision.value_or(false);
+  }
+  return c;
+}
+
+void AutopilotStage::pilot_turn() {
+  const Time now = clock_.now();
+  pilot_due_ = std::max(pilot_due_ + kCommandEvery, now);
+  const auto wanted = wanted_.get();
+  feel(now);
+  if (!wanted.value || !wanted.value->drives || now - wanted.value->time > kPlanHolds) return let_go();
+  if (is_steered_by_others()) {
+    steered_ = true;
+    sent_.reset();
+    return;
+  }
+  if (wanted.version != std::exchange(wanted_version_, wanted.version)) {
+    if (wanted.value->task) {
+      follower_.follow(*wanted.value->task);
+    } else {
+      follower_.halt();
+    }
+  }
+  const Twist twist = wanted_twist(now, *wanted.value);
+  command(now, twist, false);
+}
+
+/// Somebody else commanded since, and to move.
+bool AutopilotStage::is_steered_by_others() const {
+  const auto last = ports_.command.get().value;
+  if (!sent_ || !last) return false;
+  return last->heard >= sent_->heard && last->seq != sent_->seq && is_moving(last->twist);
+}
+
+/// Leaves the wheel to whoever takes it.
+void AutopilotStage::let_go() {
+  follower_.halt();
+  if (sent_ && !is_steered_by_others()) command(clock_.now(), {}, true);
+  sent_.reset();
+}
+
+/// How the robot moves, from all that tells of it.
+void AutopilotStage::feel(Time now) {
+  const auto drive = ports_.drive.get().value;
+  const auto imu = imu_.get().value;
+  applied_ = drive ? drive->applied : Twist{};
+  motion_.add(now, applied_, imu ? std::optional(*imu) : std::nullopt);
+  measured_.w_radps = motion_.between(now - kTurnOver, now).yaw / to_seconds(kTurnOver);
+  const auto world = ports_.world.get().value;
+  if (world && world_ && world->pose.stamp > world_->pose.stamp) {
+    const Pose2 moved = world_->pose.map_T_robot.inverse() * world->pose.map_T_robot;
+    const double passed_s = to_seconds(world->pose.stamp - world_->pose.stamp);
+    measured_.v_mps = moved.x / passed_s;
+  }
+  world_ = world;
+  const auto scan = ports_.scan.get();
+  if (scan.value && scan.version != std::exchange(scan_version_, scan.version))
+    follower_.see(*scan.value, motion_);
+}
+
+Twist AutopilotStage::wanted_twist(Time now, const Wanted& wanted) {
+  const auto drive = ports_.drive.get().value;
+  // A driver whose command was cut off lets go before he pushes again.
+  const bool is_stopped = !drive || drive->verdict.motion >= Motion::kStop;
+  const bool has_pose = world_ && !world_->pose.lost && now - world_->pose.stamp < kPoseHolds;
+  Twist twist;
+  if (wanted.look_round_radps != 0.0) {
+    twist = {0.0, wanted.look_round_radps};
+  } else if (wanted.task && has_pose && !is_stopped) {
+    const Pose2 map_T_robot = world_->pose.map_T_robot * motion_.between(world_->pose.stamp, now);
+    const FollowOutput out = follower_.next({now, map_T_robot, measured_}, motion_);
+    report_.put({wanted.task->id, out.state, out.remaining_m, follower_.remaining(), out.reason});
+    twist = speed_.correct(now, out.twist, applied_, measured_);
+  }
+  return is_stopped ? Twist{} : twist;
+}
+
+/// A number no smaller than any that another commander may have used meanwhile.
+void AutopilotStage::command(Time now, const Twist& twist, bool gone) {
+  const auto last = ports_.command.get().value;
+  sent_ = DriveCommand{(last ? last->seq : 0) + 1, twist, now, gone};
+  ports_.command.put(*sent_);
+}
+
+}  // namespace dynslam

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "autopilot/autopilot.h"
+#include "base/imu_sample.h"
+#include "drive/drive_config.h"
+#include "drive/path_follower.h"
+#include "drive/recent_motion.h"
+#include "drive/speed_control.h"
+#include "pipe/clock.h"
+#include "pipe/latest.h"
+#include "robot/ports.h"
+
+namespace dynslam {
+
+/// Lets the autopilot drive as a person would: by commands, through everything that guards a person's
+/// commands. Two turns, each with a thread of its own: one plans, and may take as long as it needs; the other
+/// keeps the commands coming and minds what is in the way.
+class AutopilotStage {
+ public:
+  static constexpr Duration kPlanEvery = std::chrono::milliseconds(200);
+  static constexpr Duration kCommandEvery = std::chrono::milliseconds(50);
+
+  /// All references must outlive it.
+  AutopilotStage(const AutopilotSetup& setup, const DriveConfig& drive, const Clock& clock, Ports& ports,
+                 const Latest<ImuSample>& imu);
+
+  void plan_turn();
+  Time plan_due() const { return plan_due_; }
+  void pilot_turn();
+  Time pilot_due() const { return pilot_due_; }
+
+ private:
+  /// From the one turn to the other.
+  struct Wanted {
+    Time time;
+    bool drives = false;
+    std::optional<DriveTask> task = {};
+    double look_round_radps = 0.0;
+  };
+  Condition condition(const std::shared_ptr<const WorldState>& world) const;
+  bool is_steered_by_others() const;
+  void let_go();
+  void feel(Time now);
+  Twist wanted_twist(Time now, const Wanted& wanted);
+  void command(Time now, const Twist& twist, bool gone);
+
+  const Clock& clock_;
+  Ports& ports_;
+  const Latest<ImuSample>& imu_;
+
+  // Of the planning turn.
+  Autopilot autopilot_;
+  Time plan_due_;
+
+  Latest<Wanted> wanted_;
+  Latest<FollowReport> report_;
+  std::atomic<bool> steered_{false};
+
+  // Of the commanding turn.
+  PathFollower follower_;
+  SpeedControl speed_;
+  RecentMotion motion_;
+  Time pilot_due_;
+  std::uint64_t wanted_version_ = 0, scan_version_ = 0;
+  std::optional<DriveCommand> sent_;  ///< the last one; nothing while it does not drive
+  std::shared_ptr<const WorldState> world_;
+  Twist applied_, measured_;
+};
+
+}  // namespace dynslam

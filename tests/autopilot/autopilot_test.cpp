@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+#include "autopilot/autopilot.h"
+
+#include <gmock/gmock.h>
+
+#include "autopilot/drawn_building.h"
+
+namespace dynslam {
+namespace {
+
+using std::chrono::milliseconds;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+const std::vector<std::string> kFlat = {
+    "##############################",  //
+    "#.............#..............#",  //
+    "#.............#..............#",  //
+    "#.............#.......g......#",  //
+    "#.............d..............#",  //
+    "#..s..........d..............#",  //
+    "#.............d..............#",  //
+    "#.............#..............#",  //
+    "#.............#..............#",  //
+    "##############################",  //
+};
+
+/// An autopilot whose wishes are granted: the robot glides along its route.
+struct Pilot {
+  explicit Pilot(const std::vector<std::string>& lines, const AutopilotSetup& setup = {})
+      : building(lines), autopilot(setup) {
+    at.x = building.find('s').x();
+    at.y = building.find('s').y();
+  }
+
+  DrawnBuilding building;
+  Autopilot autopilot;
+  Pose2 at;
+  Time now = Time(std::chrono::seconds(50));
+  std::vector<Order> orders;
+  std::shared_ptr<MapNotes> notes;
+  FollowReport follow;
+  Condition condition;
+  bool steered = false, lost = false, looks = false, glides = true;
+  double way_m = 0.0;
+
+  AutopilotStatus turn(const Order& order) {
+    orders.push_back(order);
+    return turn();
+  }
+
+  AutopilotStatus turn() {
+    now += milliseconds(200);
+    if (looks) building.look(at.translation());
+    auto world = std::make_shared<WorldState>(building.world(now, at));
+    world->pose.lost = lost;
+    condition.pose = world->pose;
+    const AutopilotStatus status = autopilot.turn(now, {orders, world, notes, follow, condition, steered});
+    orders.clear();
+    glide();
+    return status;
+  }
+
+  /// Ten centimetres a turn.
+  void glide() {
+    follow = {};
+    const auto& task = autopilot.task();
+    if (!task) return;
+    follow.task = task->id;
+    follow.state = Following::kDriving;
+    const Vector2 here = at.translation();
+    std::vector<Vector2> left;
+    for (const Vector2& p : task->route_map)
+      if ((p - here).norm() > 1e-6) left.push_back(p);
+    // What was passed already: everything up to the leg that the robot stands on.
+    for (std::size_t i = 1; i < task->route_map.size(); ++i) {
+      const Vector2 a = task->route_map[i - 1], b = task->route_map[i];
+      if (std::abs((here - a).norm() + (here - b).norm() - (b - a).norm()) < 1e-6)
+        left.assign(task->route_map.begin() + static_cast<std::ptrdiff_t>(i), task->route_map.end());
+    }
+    double budget_m = glides ? 0.1 : 0.0;
+    Vector2 p = here;
+    while (!left.empty() && budget_m > 0.0) {
+      const double leg_m = (left.front() - p).norm();
+      const double step_m = std::min(leg_m, budget_m);
+      if (leg_m > 0.0) p += step_m / leg_m * (left.front() - p);
+      budget_m -= step_m;
+      way_m += step_m;
+      if (step_m >= leg_m) left.erase(left.begin());
+    }
+    at.x = p.x();
+    at.y = p.y();
+    follow.route_map = {p};
+    follow.route_map.insert(follow.route_map.end(), left.begin(), left.end());
+    for (std::size_t i = 1; i < follow.route_map.size(); ++i)
+      follow.remaining_m += (follow.route_map[i] - follow.route_map[i - 1]).norm();
+    if (left.empty()) follow.state = Following::kArrived;
+  }
+
+  /// Until it drives no more.
+  AutopilotStatus run(int most_turns = 3000) {
+    AutopilotStatus status = turn();
+    while (status.phase == AutopilotPhase::kActive && --most_turns > 0) status = turn();
+    EXPECT_GT(most_turns, 0) << "it never ends: " << status.reason;
+    return status;
+  }
+  double away_m(const Vector2& point) const { return (point - at.translation()).norm(); }
+};
+
+struct KnownFlat : Pilot {
+  explicit KnownFlat(const AutopilotSetup& setup = {}) : Pilot(kFlat, setup) { building.know_all(); }
+};
+
+TEST(Autopilot, IsOffUntilItIsAskedForSomething) {
+  KnownFlat pilot;
+  EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kOff);
+  EXPECT_FALSE(pilot.autopilot.task());
+}
+
+TEST(Autopilot, DrivesToAPlaceAndHasNothingToDoThere) {
+  KnownFlat pilot;
+  const Vector2 goal = pilot.building.find('g');
+  const AutopilotStatus begun = pilot.turn(GoThere{{goal, 1.0, "sofa"}});
+  EXPECT_EQ(begun.phase, AutopilotPhase::kActive);
+  ASSERT_TRUE(begun.remaining_m);
+  EXPECT_GT(*begun.remaining_m, 3.8);
+  EXPECT_EQ(pilot.autopilot.task()->yaw_rad, 1.0);
+  const AutopilotStatus ended = pilot.run();
+  EXPECT_EQ(ended.phase, AutopilotPhase::kIdle);
+  EXPECT_EQ(ended.reason, "arrived at sofa");
+  EXPECT_LT(pilot.away_m(goal), 0.01);
+}
+
+TEST(Autopilot, SaysAtOnceThatAPlaceIsOutsideAndShowsTheNearestThatIsNot) {
+  KnownFlat pilot;
+  pilot.turn(GoThere{{{7.0, -5.0}}});
+  const AutopilotStatus status = pilot.turn();
+  EXPECT_EQ(status.phase, AutopilotPhase::kStopped);
+  EXPECT_THAT(status.reason, HasSubstr("no route"));
+  ASSERT_TRUE(status.nearest_map);
+  EXPECT_FALSE(pilot.building.is_wall(*status.nearest_map));
+  EXPECT_LT(pilot.way_m, 0.01);
+}
+
+TEST(Autopilot, WaitsForADoorThatClosesInMidDriveAndSaysSoWhenItStaysShut) {
+  KnownFlat pilot;
+  pilot.turn(GoThere{{pilot.building.find('g')}});
+  for (int i = 0; i < 5; ++i) pilot.turn();
+  pilot.building.wall_up('d');
+  pilot.building.know_all();
+  AutopilotStatus status = pilot.turn();
+  for (int i = 0; i < 5; ++i) status = pilot.turn();
+  EXPECT_EQ(status.phase, AutopilotPhase::kActive);
+  EXPECT_THAT(status.reason, Not(IsEmpty()));
+  EXPECT_FALSE(pilot.autopilot.task()) << "it stands";
+  const Time shut = pilot.now;
+  status = pilot.run();
+  EXPECT_EQ(status.phase, AutopilotPhase::kStopped);
+  EXPECT_THAT(status.reason, HasSubstr("no route"));
+  EXPECT_GT(pilot.now - shut, std::chrono::seconds(10));
+  EXPECT_LT(pilot.at.x, pilot.building.kLetter_m * 14);
+}
+
+TEST(Autopilot, DrivesOnWhenTheDoorOpensAgain) {
+  KnownFlat pilot;
+  pilot.turn(GoThere{{pilot.building.find('g')}});
+  pilot.building.wall_up('d');
+  pilot.building.know_all();
+  for (int i = 0; i < 20; ++i) pilot.turn();
+  for (int y = 3; y < 6; ++y) pilot.building.open('#');  // all walls fall
+  pilot.building.know_all();
+  EXPECT_EQ(pilot.run().phase, AutopilotPhase::kIdle);
+}
+
+TEST(Autopilot, WhoTakesTheWheelEndsIt) {
+  KnownFlat pilot;
+  pilot.turn(GoThere{{pilot.building.find('g')}});
+  pilot.steered = true;
+  const AutopilotStatus status = pilot.turn();
+  EXPECT_EQ(status.phase, AutopilotPhase::kOff);
+  EXPECT_EQ(status.reason, "a person took the wheel");
+  EXPECT_FALSE(pilot.autopilot.task());
+}
+
+TEST(Autopilot, AStopEndsItAndClearingTheStopDoesNotSetItOff) {
+  KnownFlat pilot;
+  pilot.turn(GoThere{{pilot.building.find('g')}});
+  pilot.condition.verdict = {Motion::kEStop, "stopped by Ann"};
+  pilot.condition.cause = Cause::kStopAsked;
+  EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kStopped);
+  pilot.condition.verdict = {};
+  pilot.condition.verdict.motion = Motion::kGo;
+  const AutopilotStatus status = pilot.turn();
+  EXPECT_EQ(status.phase, AutopilotPhase::kStopped);
+  EXPECT_EQ(status.reason, "stopped by Ann");
+  EXPECT_EQ(pilot.turn(GoThere{{pilot.building.find('g')}}).phase, AutopilotPhase::kActive);
+}
+
+TEST(Autopilot, ATouchEndsIt) {
+  KnownFlat pilot;
+  pilot.turn(Explore{});
+  pilot.condition.touches = true;
+  const AutopilotStatus status = pilot.turn();
+  EXPECT_EQ(status.phase, AutopilotPhase::kStopped);
+  EXPECT_EQ(status.reason, "it touched something");
+}
+
+TEST(Autopilot, ALidarThatIsGoneIsWaitedForButNotForEver) {
+  KnownFlat pilot;
+  pilot.turn(GoThere{{pilot.building.find('g')}});
+  pilot.condition.verdict = {Motion::kStop, "no scan for 0.5 s"};
+  pilot.condition.cause = Cause::kScan;
+  pilot.glides = false;
+  const AutopilotStatus status = pilot.turn();
+  EXPECT_EQ(status.phase, AutopilotPhase::kActive);
+  EXPECT_EQ(status.reason, "no scan for 0.5 s");
+  const AutopilotStatus later = pilot.run();
+  EXPECT_EQ(later.phase, AutopilotPhase::kStopped);
+  EXPECT_EQ(later.reason, "no scan for 0.5 s");
+}
+
+TEST(Autopilot, LooksRoundWhenItIsLostAndGoesOnWhenItIsFound) {
+  KnownFlat pilot;
+  pilot.turn(GoThere{{pilot.building.find('g')}});
+  pilot.lost = true;
+  pilot.turn();
+  EXPECT_NE(pilot.autopilot.look_round_radps(), 0.0);
+  pilot.lost = false;
+  pilot.turn();
+  EXPECT_EQ(pilot.autopilot.look_round_radps(), 0.0);
+  EXPECT_EQ(pilot.run().phase, AutopilotPhase::kIdle);
+}
+
+TEST(Autopilot, DrivesHomeWithTheLastOfItsBattery) {
+  KnownFlat pilot;
+  pilot.notes = std::make_shared<MapNotes>();
+  pilot.notes->home = Destination{pilot.building.find('s'), {}, "the charger"};
+  pilot.turn(GoThere{{pilot.building.find('g')}});
+  for (int i = 0; i < 20; ++i) pilot.turn();
+  pilot.condition.battery = BatteryLevel::kRecharge;
+  const AutopilotStatus status = pilot.run();
+  EXPECT_EQ(status.phase, AutopilotPhase::kStopped);
+  EXPECT_THAT(status.reason, HasSubstr("battery"));
+  EXPECT_LT(pilot.away_m(pilot.building.find('s')), 0.01);
+}
+
+TEST(Autopilot, WithoutAHomeItStopsWhenTheBatteryEnds) {
+  KnownFlat pilot;
+  pilot.turn(GoThere{{pilot.building.find('g')}});
+  pilot.condition.battery = BatteryLevel::kRecharge;
+  const AutopilotStatus status = pilot.turn();
+  EXPECT_EQ(status.phase, AutopilotPhase::kStopped);
+  EXPECT_THAT(status.reason, HasSubstr("battery"));
+}
+
+TEST(Autopilot, KeepsOutOfForbiddenAreas) {
+  KnownFlat pilot;
+  pilot.notes = std::make_shared<MapNotes>();
+  pilot.notes->forbidden_map = {{{2.4, 0.0}, {3.2, 0.0}, {3.2, 2.0}, {2.4, 2.0}}};  // across the door
+  pilot.turn(GoThere{{pilot.building.find('g')}});
+  EXPECT_EQ(pilot.run().phase, AutopilotPhase::kStopped);
+  pilot.notes = std::make_shared<MapNotes>();
+  pilot.turn(GoThere{{pilot.building.find('g')}});
+  EXPECT_EQ(pilot.run().phase, AutopilotPhase::kIdle);
+}
+
+TEST(Autopilot, PatrolsAndLeavesOutWhatItCannotReach) {
+  KnownFlat pilot;
+  const Vector2 first = pilot.building.find('g'), second = pilot.building.find('s');
+  pilot.turn(Patrol{{{first, {}, "a"}, {{50.0, 50.0}, {}, "nowhere"}, {second, {}, "b"}}});
+  int at_first = 0, at_second = 0;
+  bool was_first = false;
+  for (int i = 0; i < 1500; ++i) {
+    pilot.turn();
+    if (!was_first && pilot.away_m(first) < 0.02) ++at_first, was_first = true;
+    if (was_first && pilot.away_m(second) < 0.02) ++at_second, was_first = false;
+  }
+  EXPECT_GE(at_first, 2);
+  EXPECT_GE(at_second, 2);
+}
+
+TEST(Autopilot, APatrolOfPlacesThatCannotBeReachedEnds) {
+  KnownFlat pilot;
+  pilot.turn(Patrol{{{{50.0, 50.0}, {}, "x"}, {{-50.0, 50.0}, {}, "y"}}});
+  EXPECT_EQ(pilot.run().phase, AutopilotPhase::kStopped);
+  pilot.turn(Patrol{});
+  EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kStopped);
+}
+
+TEST(Autopilot, ExploresEveryRoomAndEnds) {
+  AutopilotSetup setup;
+  setup.autopilot.when_explored = "stay";
+  Pilot pilot(kFlat, setup);
+  pilot.looks = true;
+  const AutopilotStatus begun = pilot.turn(Explore{});
+  EXPECT_EQ(begun.mode, AutopilotMode::kExploration);
+  const AutopilotStatus ended = pilot.run();
+  EXPECT_EQ(ended.phase, AutopilotPhase::kIdle);
+  EXPECT_EQ(ended.reason, "everything within reach is mapped");
+  EXPECT_EQ(pilot.building.world(pilot.now, pilot.at).map.state(cell_at(pilot.building.find('g'), 0.02)),
+            CellState::kFree);
+  EXPECT_LT(pilot.way_m, 12.0);
+}
+
+TEST(Autopilot, GoesHomeWhenAllIsExplored) {
+  AutopilotSetup setup;
+  setup.autopilot.when_explored = "home";
+  Pilot pilot(kFlat, setup);
+  pilot.looks = true;
+  pilot.notes = std::make_shared<MapNotes>();
+  pilot.notes->home = Destination{pilot.building.find('s'), {}, "the charger"};
+  pilot.turn(Explore{});
+  const AutopilotStatus ended = pilot.run();
+  EXPECT_EQ(ended.phase, AutopilotPhase::kIdle);
+  EXPECT_EQ(ended.reason, "arrived at the charger");
+}
+
+TEST(Autopilot, RevisitsWhatIsExploredForEver) {
+  Pilot pilot(kFlat);
+  pilot.looks = true;
+  pilot.turn(Explore{});
+  int explored = 0;
+  for (int i = 0; i < 600; ++i) {
+    EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kActive);
+    explored += pilot.autopilot.is_explored() ? 1 : 0;
+  }
+  EXPECT_GT(explored, 50);
+  EXPECT_GT(pilot.way_m, 10.0) << "it goes on";
+}
+
+TEST(Autopilot, WithoutAMapItSaysWhatItWaitsFor) {
+  Autopilot autopilot({});
+  const std::vector<Order> orders = {Explore{}};
+  const AutopilotStatus& status = autopilot.turn(Time(std::chrono::seconds(1)), {orders, nullptr});
+  EXPECT_EQ(status.phase, AutopilotPhase::kActive);
+  EXPECT_EQ(status.reason, "there is no map yet");
+}
+
+}  // namespace
+}  // namespace dynslam
