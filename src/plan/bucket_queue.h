@@ -16,14 +16,15 @@ class BucketQueue {
  public:
   void clear() {
     for (auto& bucket : buckets_) bucket.clear();
-    now_ = 0;
     size_ = 0;
+    began_ = false;
   }
   /// REQUIRES: `key` is less than kWidth * (kBuckets - 1) above that of what was taken last. A key below it
   /// counts as the same.
   void push(std::uint32_t key, const Value& value) {
     const std::uint32_t bucket = key / kWidth;
-    now_ = size_ == 0 ? bucket : now_;
+    if (!began_) now_ = bucket;
+    began_ = true;
     buckets_[std::max(bucket, now_) % kBuckets].push_back(value);
     ++size_;
   }
@@ -41,6 +42,7 @@ class BucketQueue {
   std::vector<std::vector<Value>> buckets_ = std::vector<std::vector<Value>>(kBuckets);
   std::uint32_t now_ = 0;
   std::size_t size_ = 0;
+  bool began_ = false;
 };
 
 }  // namespace dynslam

@@ -38,7 +38,8 @@ class Ground {
 std::uint8_t clearance_steps_for(double clearance_m);
 
 /// What the straight leg costs, in metres of easy ground; nothing when a cell that it touches is no way. Of
-/// what is known the coarse cell decides, as in the search. The same both ways. REQUIRES: both ends lie in the map's box.
+/// what is known the coarse cell decides, as in the search. The same both ways. REQUIRES: both ends lie in
+/// the map's box.
 std::optional<double> leg_cost(const Costmap& map, const Ground& ground, const Vector2& from_map,
                                const Vector2& to_map);
 

@@ -107,7 +107,7 @@ PathPlanner::Found PathPlanner::search(const Costmap& costmap, const Ground& cel
     if (may_end && settled->index == aim && leg_cost(costmap, legs, centre, goal))
       return {aim, goal, true, false};
     const bool is_near = (centre - goal).norm() <= config_.goal_tolerance_m;
-    if (is_near && !may_end) most = std::min(most, settled->estimate + around);
+    if (is_near && (!may_end || settled->index == aim)) most = std::min(most, settled->estimate + around);
     if ((found.gave_up = ++expansions > config_.most_expansions)) break;
     search_.expand(*settled);
   }

@@ -33,7 +33,7 @@ struct Plan {
   std::vector<Vector2> route_map;  ///< from the start to the end, straight legs between
   double length_m = 0.0;
   std::string reason;                  ///< why not to the goal, for people; empty when kFound
-  std::optional<Vector2> nearest_map;  ///< of kNoRoute: the reachable place nearest to the goal
+  std::optional<Vector2> nearest_map;  ///< of kNoRoute: the reachable place nearest to the goal, if any
 };
 
 /// Finds ways for a round robot. The way is searched on the coarse cells with the full margin, then pulled

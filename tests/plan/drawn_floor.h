@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <random>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -20,7 +20,6 @@ class DrawnFloor {
   void occupy(double x0, double y0, double x1, double y1) { fill(x0, y0, x1, y1, true); }
   void clear(double x0, double y0, double x1, double y1) { fill(x0, y0, x1, y1, false); }
   void set(CellIndex c, bool occupied) {
-    for (int look = 0; look < 10; ++look) occupied ? grid.add_hit(c) : grid.add_miss(c);
     for (int look = 0; look < 20; ++look) occupied ? grid.add_hit(c) : grid.add_miss(c);
   }
   Costmap costmap() {

@@ -2,7 +2,6 @@
 // The planner's routes against the shortest there are, in small worlds of posts.
 #include <cmath>
 #include <limits>
-#include <queue>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -13,10 +12,6 @@ namespace dynslam {
 namespace {
 
 constexpr double kSide_m = 4;
-
-struct Post {
-  int left, low, right, high;  ///< cells
-};
 
 DrawnFloor random_posts(std::mt19937& random) {
   DrawnFloor floor;
@@ -81,12 +76,15 @@ class VisibilityGraph {
     }
     return !inside && free >= 25;
   }
+  /// As the clearance changes by no more than one moves, what it exceeds the least by can be skipped.
   bool sees(const Vector2& a, const Vector2& b) const {
-    const int steps = 1 + static_cast<int>((b - a).norm() / (0.5 * kCell_m));
-    for (int k = 0; k <= steps; ++k) {
-      if (map_.clearance_m(a + (b - a) * k / steps) < least_m_) return false;
+    const double length_m = (b - a).norm();
+    for (double at_m = 0; at_m < length_m;) {
+      const double spare_m = map_.clearance_m(a + (b - a) * (at_m / length_m)) - least_m_;
+      if (spare_m < 0) return false;
+      at_m += std::max(0.5 * kCell_m, spare_m - 2 * kCell_m);
     }
-    return true;
+    return map_.clearance_m(b) >= least_m_;
   }
 
   const Costmap& map_;
@@ -147,6 +145,8 @@ TEST(ShortestRoute, IsLeftForRoomOnlyWhenThatIsWorthIt) {
     ++routes;
     EXPECT_LE(cost_of(map, a.route_map), 1.03 * cost_of(map, b.route_map)) << seed;
     EXPECT_GE(a.length_m, 0.99 * b.length_m) << seed;
+    EXPECT_GE(least_clearance_m(map, a.route_map), kRadius_m + 0.02) << seed;
+    EXPECT_FALSE(comfortable.first_blocked_leg(map, a.route_map)) << seed;
   }
   EXPECT_GT(routes, 8);
 }
