@@ -11,7 +11,7 @@ constexpr double kFloorStep_m = 0.1;
 constexpr double kReached_m = 0.05;
 constexpr double kReached_rad = 5.0 * kTwoPi / 360.0;
 /// A place with less floor around it may be too tight to stand at with some room to spare.
-constexpr double kRoomy_m = 0.15;
+constexpr double kRoomy_m = 0.12;
 /// A goal that is too tight may be given up for one so near to it.
 constexpr double kNearby_m = 0.35;
 /// The pose of a robot that stands is known after a scan or two.
@@ -34,10 +34,14 @@ bool is_on(const std::vector<Vector2>& floor, const Vector2& point) {
   return floor_within(floor, point, 0.75 * kFloorStep_m) > 0;
 }
 
-/// Whether all of the floor around it is there: the disc's share of the grid, less what its rim may miss.
+/// Whether there is floor all around it.
 bool is_roomy(const std::vector<Vector2>& floor, const Vector2& point) {
-  constexpr double kDisc = kTwoPi / 2 * kRoomy_m * kRoomy_m / (kFloorStep_m * kFloorStep_m);
-  return static_cast<double>(floor_within(floor, point, kRoomy_m)) >= kDisc - 2.0;
+  constexpr int kProbes = 12;
+  for (int i = 0; i < kProbes; ++i) {
+    const double angle = kTwoPi * i / kProbes;
+    if (!is_on(floor, point + kRoomy_m * Vector2(std::cos(angle), std::sin(angle)))) return false;
+  }
+  return true;
 }
 
 }  // namespace

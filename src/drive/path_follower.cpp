@@ -14,6 +14,9 @@ constexpr double kJump_m = 0.15, kJump_rad = 0.2;  ///< the map was corrected: n
 constexpr double kLongestGap_s = 0.5;
 // Where along the route the robot may be, from where it was.
 constexpr double kBackward_m = 0.3, kForward_m = 0.5;
+constexpr double kStandsUnder_radps = 0.1;
+constexpr Duration kRest = std::chrono::milliseconds(300);
+constexpr double kHeadingShare = 0.8;  ///< of what may be off at the goal; the rest is for the pose's noise
 constexpr double kMoved_m = 0.05, kMoved_rad = 0.09;
 
 Pose2 moved_by(const Twist& twist, double s) {
@@ -137,6 +140,8 @@ void PathFollower::estimate(const FollowInputs& in) {
       pose_ = interpolate(expected, in.map_T_robot, kNewPoseShare);
   }
   moved_m_ = (pose_.translation() - before.translation()).norm();
+  if (!turned_at_ || in.now < *turned_at_ || std::abs(in.measured.w_radps) > kStandsUnder_radps)
+    turned_at_ = in.now;
   now_ = in.now;
 }
 
@@ -161,11 +166,14 @@ std::optional<FollowOutput> PathFollower::come_to_goal(const Tick& tick) {
                                                : 0.8 * config_.goal_m;
   if (away_m <= enough_m && is_near_goal()) at_goal_ = true;
   if (!at_goal_) return std::nullopt;
+  const bool swings = turning_ != 0 && !is_at_rest(tick.now);
+  if (swings && !is_moving(last_)) return rest(Following::kTurning);  // where it comes to rest is a guess
   if (task_->stops_at_end && !faces_goal_heading(tick)) {
     const double left = turn(pose_.yaw, *task_->yaw_rad);
     if (turning_ == 0) begin_turn(left);
     return turn_by(tick, left);
   }
+  if (swings) return rest(Following::kTurning);
   turning_ = 0;
   if (!task_->stops_at_end || away_m <= config_.goal_m) {
     arrived_ = true;
@@ -176,13 +184,17 @@ std::optional<FollowOutput> PathFollower::come_to_goal(const Tick& tick) {
   return std::nullopt;
 }
 
-/// Now, or by the time it comes to rest.
+/// Now, or while it turns by the time that it comes to rest.
 bool PathFollower::faces_goal_heading(const Tick& tick) const {
   if (!task_->yaw_rad) return true;
+  const double left = turn(pose_.yaw, *task_->yaw_rad);
+  if (!is_moving(last_)) return std::abs(left) <= kHeadingShare * config_.goal_rad;
   const double w = std::isfinite(tick.measured.w_radps) ? tick.measured.w_radps : 0.0;
-  const double left = turn(pose_.yaw, *task_->yaw_rad) - 0.5 * config_.reaction_s * w;
-  return std::abs(left) <= 0.5 * config_.goal_rad;
+  return std::abs(left - 0.5 * config_.reaction_s * w) <= 0.5 * config_.goal_rad;
 }
+
+/// For so long that the pose is that at which it came to rest.
+bool PathFollower::is_at_rest(Time now) const { return turned_at_ && now - *turned_at_ > kRest; }
 
 /// Wheels that slip, or are blocked by what the lidar does not see.
 FollowOutput PathFollower::watch_motion(Time now, FollowOutput out) {

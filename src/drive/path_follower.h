@@ -69,6 +69,7 @@ class PathFollower {
   void find_progress();
   std::optional<FollowOutput> come_to_goal(const Tick& tick);
   bool faces_goal_heading(const Tick& tick) const;
+  bool is_at_rest(Time now) const;
   FollowOutput watch_motion(Time now, FollowOutput out);
   FollowOutput rest(Following state, std::string reason = {});
   double remaining_m() const { return route_.length_m() - progress_m_; }
@@ -105,11 +106,12 @@ class PathFollower {
   bool stuck_ = false;  ///< until follow()
 
   std::optional<Time> now_;
-  Pose2 pose_;                ///< of the robot in the map, smoothed
-  double moved_m_ = 0;        ///< of the pose, since the last time
-  Twist last_;                ///< commanded
-  int turning_ = 0;           ///< on the spot: 1 left, -1 right
-  bool turned_back_ = false;  ///< this turn was tried the other way round
+  Pose2 pose_;                     ///< of the robot in the map, smoothed
+  double moved_m_ = 0;             ///< of the pose, since the last time
+  Twist last_;                     ///< commanded
+  std::optional<Time> turned_at_;  ///< when it last was seen to turn
+  int turning_ = 0;                ///< on the spot: 1 left, -1 right
+  bool turned_back_ = false;       ///< this turn was tried the other way round
   std::optional<Time> hindered_at_;
   double hindered_remaining_m_ = 0.0;
   Pose2 anchor_;    ///< where it was when it last was seen to move,
