@@ -208,7 +208,8 @@ void Autopilot::find_places(Time now, const Vector2& robot_map) {
       [&](const Vector2& point) { return lengths.length_m(point); },
       [&](const Vector2& point, double within_m) { return lengths.nearest_reached(point, within_m); }};
   const std::vector<Frontier> frontiers = frontier_map_.frontiers();
-  places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach);
+  // A door is seen to be open again by who passes by.
+  places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach, waits_for_door_);
   for (const Place& place : places_) {
     if (place.kind != PlaceKind::kFrontier) break;
     if (!is_near_any(once_reachable_, place.point_map)) once_reachable_.push_back(place.point_map);

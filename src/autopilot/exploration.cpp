@@ -48,13 +48,13 @@ struct HistoryBox {
 
 std::vector<Place> Exploration::places(Time now, const Vector2& robot_map,
                                        std::span<const Frontier> frontiers, const VisitMap& visits,
-                                       const GridSnapshot& map, const Reachability& reach) {
+                                       const GridSnapshot& map, const Reachability& reach, bool restless) {
   left_out_ = {};
   std::vector<Ranked> found;
   if (robot_map.allFinite()) {
     found = frontier_places(now, frontiers, reach);
     if (found.empty()) found = unvisited_places(now, robot_map, visits, map, reach);
-    if (found.empty()) found = old_places(now, visits, reach);
+    if (found.empty()) found = old_places(now, visits, reach, restless);
   }
   stay_with_chosen(found);
   const auto order = [](const Ranked& r) {
@@ -129,10 +129,11 @@ std::vector<Exploration::Ranked> Exploration::unvisited_places(Time now, const V
 
 /// A cell counts as reached in the circle that fits into it.
 std::vector<Exploration::Ranked> Exploration::old_places(Time now, const VisitMap& visits,
-                                                         const Reachability& reach) const {
+                                                         const Reachability& reach, bool restless) const {
   std::vector<Ranked> found;
   for (const auto& [visit, cell] : visits.by_age()) {
-    if (now - visit < from_seconds(config_.revisit_after_s) || found.size() >= kMostCells) break;
+    if ((!restless && now - visit < from_seconds(config_.revisit_after_s)) || found.size() >= kMostCells)
+      break;
     const Vector2 centre = cell_centre(cell, kHistoryCell_m);
     const TriedPlaces::Tried* tried = cells_.find(centre);
     if (tried && tried->until > now) continue;

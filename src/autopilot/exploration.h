@@ -54,9 +54,11 @@ class Exploration {
 
   /// Places of the most worthy kind of which there are any, best first; none for a robot that is nowhere.
   /// Frontiers: the way, less what is to be seen there; the one that was first the last time stays first
-  /// unless another is clearly better. Cells never visited: the nearest few. Old ones: the oldest few.
+  /// unless another is clearly better. Cells never visited: the nearest few. Old ones: the oldest few; when
+  /// `restless`, however short ago that was.
   std::vector<Place> places(Time now, const Vector2& robot_map, std::span<const Frontier> frontiers,
-                            const VisitMap& visits, const GridSnapshot& map, const Reachability& reach);
+                            const VisitMap& visits, const GridSnapshot& map, const Reachability& reach,
+                            bool restless = false);
 
   /// There was no way to it, whatever the planner said.
   void failed(Time now, const Place& place);
@@ -76,7 +78,8 @@ class Exploration {
                                       const Reachability& reach);
   std::vector<Ranked> unvisited_places(Time now, const Vector2& robot_map, const VisitMap& visits,
                                        const GridSnapshot& map, const Reachability& reach) const;
-  std::vector<Ranked> old_places(Time now, const VisitMap& visits, const Reachability& reach) const;
+  std::vector<Ranked> old_places(Time now, const VisitMap& visits, const Reachability& reach,
+                                 bool restless) const;
   bool is_left_alone(Time now, const Frontier& frontier);
   void stay_with_chosen(std::vector<Ranked>& found) const;
 

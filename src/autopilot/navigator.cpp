@@ -78,8 +78,7 @@ void Navigator::plan(Time now, const Pose2& map_T_robot, const Costmap& costmap,
     task_.reset();
   } else if (!task_ || is_better(plan, costmap, follow)) {
     had_route_ = true;
-    const bool exact = plan.outcome == PlanOutcome::kFound;
-    task_ = DriveTask{errands_, plan.route_map, exact ? to_->yaw_rad : std::nullopt, kNoLimit_mps, stops_};
+    task_ = DriveTask{errands_, plan.route_map, to_->yaw_rad, kNoLimit_mps, stops_};
   } else {
     return;  // the plan that is being driven stays the last one
   }

@@ -19,9 +19,11 @@ struct CoarseCell {
   std::uint8_t clearance = 0;  ///< steps, of the roomiest cell
   std::uint8_t about = 0;      ///< the bits below
 
-  static constexpr std::uint8_t kKnown = 16;  ///< at least half of the cells are
-  static constexpr std::uint8_t kBest = 15;   ///< which cell is the roomiest: 4 y + x
+  static constexpr std::uint8_t kKnown = 16;   ///< at least half of the cells are
+  static constexpr std::uint8_t kByPost = 32;  ///< beside a post that may have a wide foot
+  static constexpr std::uint8_t kBest = 15;    ///< which cell is the roomiest: 4 y + x
   bool known() const { return (about & kKnown) != 0; }
+  bool by_post() const { return (about & kByPost) != 0; }
 };
 
 /// The coarse cells of a rectangle of chunks as one flat array, with a rim two wide of cells that nobody can

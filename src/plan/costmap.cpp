@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "plan/lone_posts.h"
 #include "plan/outline_cells.h"
 
 namespace dynslam {
@@ -85,7 +86,10 @@ std::size_t Costmap::update(const GridSnapshot& map) {
       refresh_clearance(c);
       ++computed;
     }
-    if (stale != 0) refresh_coarse(c);
+    if (stale != 0) {
+      refresh_coarse(c);
+      mark_posts(c);
+    }
     stale = 0;
   });
   return computed;
@@ -189,6 +193,26 @@ void Costmap::refresh_coarse(ChunkIndex index) {
       const bool is_known = count >= kCoarseSide * kCoarseSide / 2;
       coarse_[row + x / kCoarseSide] = {
           most, static_cast<std::uint8_t>(best | (is_known ? CoarseCell::kKnown : 0))};
+    }
+  }
+}
+
+void Costmap::mark_posts(ChunkIndex index) {
+  constexpr double kPostThick_m = 0.1, kPostAlone_m = 0.3;
+  const auto cells = [&](double m) { return static_cast<int>(m / cell_size_m_); };
+  const int berth = std::min(cells(kPostBerth_m), chunk_clearance_.reach_cells() - cells(kPostAlone_m));
+  const CellIndex first = first_cell(index);
+  const CellBox near{{first.x - berth, first.y - berth},
+                     {first.x + kChunkSide - 1 + berth, first.y + kChunkSide - 1 + berth}};
+  const PostSize size{cells(kPostThick_m), cells(kPostAlone_m)};
+  for (const CellIndex post : lone_posts(occupied_, near, size)) {
+    for (int y = 0; y < kChunkSide; y += kCoarseSide) {
+      for (int x = 0; x < kChunkSide; x += kCoarseSide) {
+        const double dx = first.x + x + 0.5 * kCoarseSide - post.x,
+                     dy = first.y + y + 0.5 * kCoarseSide - post.y;
+        if (dx * dx + dy * dy > double(berth) * berth) continue;
+        coarse_[coarse_.index_of({first.x + x, first.y + y})].about |= CoarseCell::kByPost;
+      }
     }
   }
 }

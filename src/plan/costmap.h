@@ -26,6 +26,8 @@ namespace dynslam {
 class Costmap {
  public:
   static constexpr double kReach_m = 1.0;
+  /// A post may be the middle of something that is so wide below the lidar, the robot's width added.
+  static constexpr double kPostBerth_m = 0.5;
   static constexpr std::size_t kMostChunks = 16384;
   /// Corners of no-go areas that are looked at, all together; areas beyond are left out.
   static constexpr std::size_t kMostCorners = 4096;
@@ -83,6 +85,7 @@ class Costmap {
   void mark_near(ChunkIndex index, const CellTile& before, const CellTile& after);
   void refresh_clearance(ChunkIndex index);
   void refresh_coarse(ChunkIndex index);
+  void mark_posts(ChunkIndex index);
 
   double cell_size_m_;
   ChunkClearance chunk_clearance_;

@@ -31,7 +31,10 @@ Ground::Ground(const PlannerConfig& config, double least_clearance_m, Unknown un
       return static_cast<std::uint16_t>(std::clamp(std::round(p), double{kUnit}, double{kMostPrice}));
     };
     prices_[1][steps] = rounded(price);
-    if (unknown == Unknown::kDear) prices_[0][steps] = rounded(price * config.unknown_weight);
+    prices_[3][steps] = rounded(price * config.post_weight);
+    if (unknown != Unknown::kDear) continue;
+    prices_[0][steps] = rounded(price * config.unknown_weight);
+    prices_[2][steps] = rounded(price * config.unknown_weight * config.post_weight);
   }
 }
 
@@ -49,9 +52,9 @@ std::optional<double> leg_cost(const Costmap& map, const Ground& ground, const V
     const Vector2 to = i + 1 < pieces ? Vector2(from_map + (i + 1) / pieces * (to_map - from_map)) : to_map;
     std::uint32_t sum = 0, cells = 0;
     walk_ray(from, to, map.cell_size_m(), [&](CellIndex c) {
-      const bool known = map.coarse()[map.coarse().index_of(c)].known();
+      const CoarseCell& coarse = map.coarse()[map.coarse().index_of(c)];
       const std::uint16_t here =
-          map.contains(c) ? ground.price(known, map.clearance_steps(c)) : std::uint16_t{0};
+          map.contains(c) ? ground.price(coarse, map.clearance_steps(c)) : std::uint16_t{0};
       blocked = blocked || here == 0;
       sum += here;
       ++cells;

@@ -14,7 +14,7 @@ namespace dynslam {
 enum class Unknown { kForbidden, kDear };
 
 /// Where the robot may be and what a metre costs there: 1 where there is room, more where it is tight or
-/// unknown, rising evenly from the comfortable clearance down to the least one.
+/// unknown, rising evenly from the comfortable clearance down to the least one, and much more by a post.
 class Ground {
  public:
   /// A price of one.
@@ -25,13 +25,15 @@ class Ground {
   Ground(const PlannerConfig& config, double least_clearance_m, Unknown unknown);
 
   /// In kUnit; 0: no way.
-  std::uint16_t price(bool known, std::uint8_t clearance) const { return prices_[known ? 1 : 0][clearance]; }
-  std::uint16_t price(const CoarseCell& cell) const { return price(cell.known(), cell.clearance); }
+  std::uint16_t price(const CoarseCell& cell, std::uint8_t clearance) const {
+    return prices_[(cell.known() ? 1U : 0U) | (cell.by_post() ? 2U : 0U)][clearance];
+  }
+  std::uint16_t price(const CoarseCell& cell) const { return price(cell, cell.clearance); }
   std::uint8_t least_clearance() const { return least_clearance_; }
 
  private:
-  std::uint8_t least_clearance_;  ///< steps
-  std::array<std::array<std::uint16_t, 256>, 2> prices_{};
+  std::uint8_t least_clearance_;                            ///< steps
+  std::array<std::array<std::uint16_t, 256>, 4> prices_{};  ///< bit 0: known, bit 1: by a post
 };
 
 /// The clearance in steps that is surely as much as that in metres.

@@ -40,11 +40,11 @@ Vector2 into_box(const Costmap& costmap, const Vector2& point) {
 std::optional<std::string> trouble_at(const Costmap& costmap, const Ground& ground, const Vector2& point) {
   if (!costmap.contains(point)) return "outside of the map";
   const CellIndex c = cell_at(point, costmap.cell_size_m());
-  const bool known = costmap.coarse()[costmap.coarse().index_of(c)].known();
+  const CoarseCell& coarse = costmap.coarse()[costmap.coarse().index_of(c)];
   if (costmap.is_forbidden(c)) return "forbidden area";
   if (costmap.is_occupied(c)) return "a wall stands there";
-  if (ground.price(known, 255) == 0) return "unknown ground";
-  if (ground.price(known, costmap.clearance_steps(c)) == 0) return "too near to a wall";
+  if (ground.price(coarse, 255) == 0) return "unknown ground";
+  if (ground.price(coarse, costmap.clearance_steps(c)) == 0) return "too near to a wall";
   return std::nullopt;
 }
 

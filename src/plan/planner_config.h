@@ -14,6 +14,7 @@ struct PlannerConfig {
   double prune_margin_m = 0.02;
   double comfort_m = 0.45;
   double comfort_weight = 2.0;
+  double post_weight = 4.0;
   double goal_tolerance_m = 0.3;
   double unknown_weight = 3.0;
   int most_expansions = 2000000;
@@ -33,6 +34,8 @@ struct PlannerConfig {
     visit(Field{"comfort_m", "nearer to things than this a way costs more", 0.0, 1.0}, self.comfort_m);
     visit(Field{"comfort_weight", "namely up to so many times its length more", 0.0, 10.0},
           self.comfort_weight);
+    visit(Field{"post_weight", "beside a lone post, which may have a wide foot, so many times", 1.0, 10.0},
+          self.post_weight);
     visit(Field{"goal_tolerance_m", "a goal that is too tight gives way to a point so near to it", 0.0, 2.0},
           self.goal_tolerance_m);
     visit(Field{"unknown_weight", "unknown ground costs so many times as much, where it may be crossed", 1.0,

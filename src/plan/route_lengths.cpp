@@ -22,6 +22,11 @@ std::optional<double> RouteLengths::length_m(const Vector2& point_map) const {
 }
 
 std::optional<Vector2> RouteLengths::nearest_reached(const Vector2& point_map, double within_m) const {
+  if (const auto roomy = nearest(point_map, within_m, false)) return roomy;
+  return nearest(point_map, within_m, true);
+}
+
+std::optional<Vector2> RouteLengths::nearest(const Vector2& point_map, double within_m, bool by_posts) const {
   if (!point_map.allFinite() || !(within_m >= 0) || grid_.box().empty()) return std::nullopt;
   const CellIndex low = first_cell(grid_.box().min);
   const CellIndex high = first_cell({grid_.box().max.x + 1, grid_.box().max.y + 1});
@@ -37,7 +42,7 @@ std::optional<Vector2> RouteLengths::nearest_reached(const Vector2& point_map, d
     for (int x = clamped(point_map.x() - within_m, low.x, high.x) & ~(kCoarseSide - 1); x <= last_x;
          x += kCoarseSide) {
       const std::size_t index = grid_.index_of({x, y});
-      if (length_m_[index] == kUnreached) continue;
+      if (length_m_[index] == kUnreached || (!by_posts && grid_[index].by_post())) continue;
       const Vector2 centre = cell_centre(grid_.best_cell(index), cell_size_m_);
       const double distance_m = (centre - point_map).norm();
       if (distance_m > least_m || (nearest && distance_m == least_m)) continue;

@@ -95,6 +95,7 @@ TEST(PathPlanner, PrefersTheWayWithRoom) {
   ASSERT_EQ(roomy.outcome, PlanOutcome::kFound);
   PlannerConfig short_cut;
   short_cut.comfort_weight = 0;
+  short_cut.post_weight = 1;
   const Plan tight = plan_on(map, {0.4, 0.5}, {2.6, 0.5}, short_cut);
   EXPECT_LT(tight.length_m, 2.3) << "through the passage of 50 cm";
   EXPECT_GT(roomy.length_m, 2.8);

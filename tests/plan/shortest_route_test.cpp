@@ -95,6 +95,7 @@ class VisibilityGraph {
 TEST(ShortestRoute, IsMissedByLessThanTwoPerCent) {
   PlannerConfig config;
   config.comfort_weight = 0;
+  config.post_weight = 1;
   PathPlanner planner(config, kRadius_m);
   double worst = 0;
   int routes = 0;
@@ -126,6 +127,7 @@ TEST(ShortestRoute, IsMissedByLessThanTwoPerCent) {
 TEST(ShortestRoute, IsLeftForRoomOnlyWhenThatIsWorthIt) {
   PlannerConfig shortest;
   shortest.comfort_weight = 0;
+  shortest.post_weight = 1;
   PathPlanner comfortable({}, kRadius_m), short_cut(shortest, kRadius_m);
   const Ground ground(PlannerConfig(), kRadius_m + 0.02, Unknown::kForbidden);
   const auto cost_of = [&](const Costmap& map, const std::vector<Vector2>& route) {
