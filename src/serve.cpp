@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
 
 #include "server/access/own_addresses.h"
 #include "server/access/pairing_notice.h"
@@ -41,7 +42,13 @@ AccessSetup access_setup(const Config& config, const ServeOptions& options) {
   setup.host_name = own_host_name();
   setup.trust_loopback = config.access.simulation_pairs_itself && !options.world.empty();
   setup.addresses = own_addresses();
+  setup.folder = options.state_folder;
   return setup;
+}
+
+/// Beside what Access has for itself.
+std::optional<std::string> notes_folder(const ServeOptions& options) {
+  return options.state_folder ? std::optional(*options.state_folder + "/notes") : std::nullopt;
 }
 
 void print(const std::string& text) {
@@ -52,10 +59,11 @@ void print(const std::string& text) {
 }  // namespace
 
 Serving::Serving(Ports& ports, const Clock& clock, const Config& config, const ServeOptions& options)
-    : access_(access_setup(config, options)) {
+    : access_(access_setup(config, options)), notes_(ports.map_notes, new_map_id(), notes_folder(options)) {
+  if (const std::string notice = notes_.notes().notice; !notice.empty()) spdlog::warn("{}", notice);
   ServerConfig server = config.server;
   if (options.port) server.port = *options.port;
-  server_.emplace(ports, clock, access_, server, facts_of(config, options), options.autopilot);
+  server_.emplace(ports, clock, access_, notes_, server, facts_of(config, options), options.drives_itself);
   const std::string host = server.bind.empty() ? "localhost" : server.bind;
   print("http://" + host + ':' + std::to_string(server_->port()) + "/\n");
   access_.tend(AccessTime::now());

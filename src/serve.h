@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <thread>
@@ -13,9 +14,10 @@
 namespace dynslam {
 
 struct ServeOptions {
-  std::optional<int> port;  ///< in place of the config's
-  std::string world;        ///< that is simulated; empty on a real robot
-  AutopilotPort autopilot = {};
+  std::optional<int> port;                       ///< in place of the config's
+  std::string world;                             ///< that is simulated; empty on a real robot
+  std::function<bool()> drives_itself = {};      ///< see Server
+  std::optional<std::string> state_folder = {};  ///< none: all is forgotten at the end
 };
 
 /// The server of a program that runs a robot, wired to its settings. Prints the address to open.
@@ -35,6 +37,7 @@ class Serving {
   void tell_owner_code();
 
   Access access_;
+  NoteBook notes_;
   std::optional<Server> server_;
   std::string owner_code_;  ///< as told last
   StopSignal ends_;

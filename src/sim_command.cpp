@@ -147,7 +147,7 @@ int run_sim(const SimOptions& options, const Config& config) {
   if (!options.headless) {
     if (stepped) throw InputError("--speed 0 knows no time in which to serve: it goes with --headless");
     ServeOptions serve{options.port, options.world};
-    serve.autopilot.drives = [tour] { return tour != nullptr; };
+    serve.drives_itself = [tour] { return tour != nullptr; };
     serving.emplace(mission.robot().ports(), *clock, own, serve);
     if (tour) tour->yield_to([&serving] { return serving && serving->is_steered(); });
   }

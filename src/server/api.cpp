@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "server/api.h"
 
+#include <algorithm>
+#include <map>
+
 #include <nlohmann/json.hpp>
 
 #include "grid/trinary_map.h"
@@ -16,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kNoAutopilot = "this robot has no autopilot yet; drive it by hand";
+constexpr const char* kNoAutopilot = "this robot has no autopilot; drive it by hand";
 
 std::string text_of(const json& message) {
   return message.dump(-1, ' ', false, json::error_handler_t::replace);
@@ -37,10 +40,6 @@ HttpAnswer done() {
   return answer;
 }
 
-HttpAnswer done_unless(const std::string& refusal) {
-  return refusal.empty() ? done() : error_answer(409, refusal);
-}
-
 GridSnapshot map_of(const Ports& ports) {
   const auto world = ports.world.get().value;
   return world ? world->map : GridSnapshot();
@@ -54,15 +53,15 @@ bool is_on_map(const GridSnapshot& map, const Vector2& point) {
 
 }  // namespace
 
-Api::Api(Ports& ports, const Clock& clock, Gate& gate, Wheel& wheel, EventCounters& events, ServerFacts facts,
-         AutopilotPort autopilot)
+Api::Api(Ports& ports, const Clock& clock, Gate& gate, Wheel& wheel, NoteBook& notes, EventCounters& events,
+         ServerFacts facts)
     : ports_(ports),
       clock_(clock),
       gate_(gate),
       wheel_(wheel),
+      notes_(notes),
       events_(events),
-      facts_(std::move(facts)),
-      autopilot_(std::move(autopilot)) {}
+      facts_(std::move(facts)) {}
 
 void Api::add_to(RouteTable& routes) {
   add(routes, "GET", "/healthz", Role::kNone, &Api::health);
@@ -113,7 +112,8 @@ HttpAnswer Api::contract(const HttpRequest&, const Visitor&) {
 }
 
 std::string Api::state_text() const {
-  StateExtras extras{clock_.now(), ports_.scan.get().version, wheel_.holder(0).driver, events_.get()};
+  StateExtras extras{clock_.now(),  ports_.scan.get().version, wheel_.holder(0).driver,
+                     events_.get(), notes_.map_id(),           ports_.map_notes.get().version};
   wheel_.answered();
   return text_of(state_json(ports_, extras));
 }
@@ -166,24 +166,57 @@ HttpAnswer Api::map_yaml(const HttpRequest&, const Visitor&) {
   });
 }
 
-HttpAnswer Api::goal(const HttpRequest& request, const Visitor&) {
+HttpAnswer Api::goal(const HttpRequest& request, const Visitor& visitor) {
   BodyFields body(request);
-  const Vector2 point(body.number("x_m"), body.number("y_m"));
-  const std::optional<double> yaw = body.number_if("yaw_rad");
+  Destination to = body.destination();
+  to.name = body.text_if("name").value_or("");
   if (const auto problem = body.problem()) return *problem;
-  if (!is_on_map(map_of(ports_), point)) return error_answer(422, "the goal is not on the map");
-  if (!autopilot_.go_to) return error_answer(501, kNoAutopilot);
-  return done_unless(
-      autopilot_.go_to({point.x(), point.y(), wrap_angle(yaw.value_or(0.0))}, yaw.has_value()));
+  if (!to.name.empty())
+    if (const auto problem = note_name_problem(to.name)) return error_answer(422, *problem);
+  if (!is_on_map(map_of(ports_), to.point_map)) return error_answer(422, "the goal is not on the map");
+  return order(GoThere{std::move(to)}, visitor);
 }
 
-HttpAnswer Api::mode(const HttpRequest& request, const Visitor&) {
+HttpAnswer Api::mode(const HttpRequest& request, const Visitor& visitor) {
+  static const std::map<std::string, Order, std::less<>> kOrders = {
+      {"manual", SwitchOff{}}, {"navigate", StandBy{}}, {"explore", Explore{}}, {"home", GoHome{}}};
   BodyFields body(request);
   const std::string mode = body.text("mode");
+  const std::vector<std::string> places = body.texts_if("places");
   if (const auto problem = body.problem()) return *problem;
-  if (mode != "manual" && mode != "explore") return error_answer(422, "mode must be manual or explore");
-  if (autopilot_.set_mode) return done_unless(autopilot_.set_mode(mode));
-  return mode == "manual" ? done() : error_answer(501, kNoAutopilot);
+  if (mode == "patrol") {
+    auto route = patrol(places);
+    const auto* refusal = std::get_if<HttpAnswer>(&route);
+    return refusal != nullptr ? *refusal : order(std::get<Order>(std::move(route)), visitor);
+  }
+  const auto found = kOrders.find(mode);
+  if (found == kOrders.end())
+    return error_answer(422, "mode must be manual, navigate, explore, home or patrol");
+  if (!places.empty()) return error_answer(422, "places are for patrol");
+  return order(found->second, visitor);
+}
+
+std::variant<Order, HttpAnswer> Api::patrol(const std::vector<std::string>& names) const {
+  if (names.empty() || names.size() > kMostPlaces) return error_answer(422, "a patrol has 1 to 64 places");
+  const Notes notes = notes_.notes();
+  Patrol patrol;
+  for (const std::string& name : names) {
+    const auto place = std::find_if(notes.places.begin(), notes.places.end(),
+                                    [&](const Destination& p) { return p.name == name; });
+    if (place == notes.places.end()) return error_answer(422, "there is no place named " + name);
+    patrol.stops.push_back(*place);
+  }
+  return patrol;
+}
+
+/// What comes of it is in the state.
+HttpAnswer Api::order(Order order, const Visitor& visitor) {
+  if (!ports_.autopilot.get().value)
+    return std::holds_alternative<SwitchOff>(order) ? done() : error_answer(501, kNoAutopilot);
+  const auto driver = wheel_.order(std::move(order), visitor.id, std::chrono::steady_clock::now());
+  if (driver) return error_answer(409, *driver + " is driving; ask, or take the wheel over");
+  events_.add("server.orders");
+  return done();
 }
 
 HttpAnswer Api::power_limit(const HttpRequest& request, const Visitor&) {

@@ -4,12 +4,14 @@
 #include <atomic>
 #include <functional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "pipe/clock.h"
 #include "robot/ports.h"
 #include "server/event_counters.h"
 #include "server/gate.h"
+#include "server/note_book.h"
 #include "server/route_table.h"
 #include "server/wheel.h"
 
@@ -27,20 +29,11 @@ struct ServerFacts {
   double trusted_range_least_m = 0.0, trusted_range_most_m = 100.0;  ///< for SLAM; the least is too little
 };
 
-/// Where the autopilot is joined; while a function is empty the robot has none.
-struct AutopilotPort {
-  /// Sets out; returns why not, in a sentence, or nothing.
-  std::function<std::string(const Pose2& map_T_goal, bool yaw_matters)> go_to = {};
-  std::function<std::string(const std::string& mode)> set_mode = {};
-  /// Whether it commands the robot, unless somebody steers.
-  std::function<bool()> drives = {};
-};
-
 /// The requests of web/openapi.yaml about the robot. Any thread.
 class Api {
  public:
-  Api(Ports& ports, const Clock& clock, Gate& gate, Wheel& wheel, EventCounters& events, ServerFacts facts,
-      AutopilotPort autopilot);
+  Api(Ports& ports, const Clock& clock, Gate& gate, Wheel& wheel, NoteBook& notes, EventCounters& events,
+      ServerFacts facts);
 
   void add_to(RouteTable& routes);
   std::string state_text() const;
@@ -68,6 +61,8 @@ class Api {
   HttpAnswer map_yaml(const HttpRequest&, const Visitor&);
   HttpAnswer goal(const HttpRequest&, const Visitor&);
   HttpAnswer mode(const HttpRequest&, const Visitor&);
+  HttpAnswer order(Order order, const Visitor& visitor);
+  std::variant<Order, HttpAnswer> patrol(const std::vector<std::string>& names) const;
   HttpAnswer power_limit(const HttpRequest&, const Visitor&);
   HttpAnswer stop(const HttpRequest&, const Visitor&);
   HttpAnswer clear_stop(const HttpRequest&, const Visitor&);
@@ -76,9 +71,9 @@ class Api {
   const Clock& clock_;
   Gate& gate_;
   Wheel& wheel_;
+  NoteBook& notes_;
   EventCounters& events_;
   ServerFacts facts_;
-  AutopilotPort autopilot_;
   std::atomic<int> maps_on_the_way_{0};
   Clock::SteadyTime begun_ = std::chrono::steady_clock::now();
 };

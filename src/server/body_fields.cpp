@@ -50,6 +50,41 @@ std::optional<double> BodyFields::number_if(const std::string& name) {
   return std::nullopt;
 }
 
+std::vector<std::string> BodyFields::texts_if(const std::string& name) {
+  const nlohmann::json* value = take(name);
+  std::vector<std::string> texts;
+  if (value == nullptr) return texts;
+  if (!value->is_array()) fail(422, name + " must be a list of texts");
+  for (const nlohmann::json& one : *value) {
+    if (one.is_string()) texts.push_back(one.get<std::string>());
+    if (!one.is_string()) fail(422, name + " must be a list of texts");
+  }
+  return texts;
+}
+
+std::vector<Vector2> BodyFields::points(const std::string& name) {
+  const auto is_number = [](const nlohmann::json& n) {
+    return n.is_number() && std::isfinite(n.get<double>());
+  };
+  const nlohmann::json* value = take(name);
+  std::vector<Vector2> points;
+  if (value != nullptr && value->is_array()) {
+    for (const nlohmann::json& p : *value)
+      if (p.is_array() && p.size() == 2 && is_number(p[0]) && is_number(p[1]))
+        points.emplace_back(p[0].get<double>(), p[1].get<double>());
+  }
+  if (value == nullptr || !value->is_array() || points.size() != value->size())
+    fail(422, name + " must be a list of points, [x, y] each");
+  return points;
+}
+
+Destination BodyFields::destination() {
+  Destination d;
+  d.point_map = {number("x_m"), number("y_m")};
+  if (const auto yaw = number_if("yaw_rad")) d.yaw_rad = wrap_angle(*yaw);
+  return d;
+}
+
 std::optional<HttpAnswer> BodyFields::problem() {
   if (!problem_ && taken_ != body_.size()) fail(422, "the request has fields that are not known");
   return problem_;

@@ -3,9 +3,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "autopilot/order.h"
 #include "server/http_message.h"
 
 namespace dynslam {
@@ -19,6 +21,12 @@ class BodyFields {
   std::optional<std::string> text_if(const std::string& name);
   double number(const std::string& name);
   std::optional<double> number_if(const std::string& name);
+  /// Of all sizes; empty when there is no such field.
+  std::vector<std::string> texts_if(const std::string& name);
+  /// Points as [x, y].
+  std::vector<Vector2> points(const std::string& name);
+  /// The fields x_m and y_m, and yaw_rad if there is one.
+  Destination destination();
   /// REQUIRES: all fields were asked for. What is wrong, also when there is more in the body than was asked
   /// for.
   std::optional<HttpAnswer> problem();

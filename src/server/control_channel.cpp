@@ -74,7 +74,7 @@ void ControlChannel::take_one(LeaseWish wish, SteadyTime now) {
     wheel_.release(number_);
   } else if (!client_.may_drive) {
     refuse("only a driver may take the wheel");
-  } else if (!wheel_.acquire(number_, client_.name, wish == LeaseWish::kTakeOver, now)) {
+  } else if (!wheel_.acquire(number_, client_.name, wish == LeaseWish::kTakeOver, now, client_.id)) {
     refuse("somebody else has the wheel; ask him, or take it over");
   }
   tell_holder();

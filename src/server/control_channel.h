@@ -18,6 +18,7 @@ namespace dynslam {
 struct ControlClient {
   std::string name;
   bool may_drive = false;
+  std::string id = {};  ///< of what let him in
 };
 
 /// `control`: commands up, what became of them down. When it is destroyed the client is gone.

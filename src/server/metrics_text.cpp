@@ -70,6 +70,9 @@ void write_robot(const Ports& ports, MetricsWriter& out) {
     out.one("verdict", "gauge", "0 go, 1 slow, 2 hold, 3 stop, 4 e-stop",
             static_cast<double>(drive->verdict.motion));
   }
+  if (const auto autopilot = ports.autopilot.get().value)
+    out.one("autopilot_phase", "gauge", "0 off, 1 drives, 2 has nothing to do, 3 cannot go on",
+            static_cast<double>(autopilot->phase));
   out.one("video_watchers", "gauge", "clients that watch the video", ports.watchers.load());
 }
 

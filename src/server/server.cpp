@@ -12,8 +12,8 @@ namespace {
 constexpr std::string_view kSockets = "/api/v1/ws/";
 constexpr std::string_view kStop = "/api/v1/stop";
 
-/// Tells the maps of two runs apart; never 0.
-std::uint64_t new_map_id() {
+/// Tells the maps of two runs apart on the wire; never 0.
+std::uint64_t new_map_number() {
   std::random_device random;
   return (std::uint64_t{random()} << 32 | random()) | 1U;
 }
@@ -31,18 +31,19 @@ Seats::Limits limits_of(const ServerConfig& config) {
 
 }  // namespace
 
-Server::Server(Ports& ports, const Clock& clock, Access& access, const ServerConfig& config,
-               const ServerFacts& facts, AutopilotPort autopilot)
+Server::Server(Ports& ports, const Clock& clock, Access& access, NoteBook& notes, const ServerConfig& config,
+               const ServerFacts& facts, std::function<bool()> drives_itself)
     : ports_(ports),
       clock_(clock),
       gate_(access),
-      wheel_(ports, clock, facts.limits, autopilot.drives),
-      api_(ports, clock, gate_, wheel_, events_, facts, std::move(autopilot)),
+      wheel_(ports, clock, facts.limits, std::move(drives_itself)),
+      api_(ports, clock, gate_, wheel_, notes, events_, facts),
       access_api_(access, gate_),
       recordings_api_(ports, gate_, facts.recordings),
       settings_api_(ports, gate_, facts),
+      notes_api_(notes, gate_),
       state_feed_(ports, [this] { return api_.state_text(); }),
-      map_feed_(ports, clock, new_map_id()),
+      map_feed_(ports, clock, new_map_number()),
       web_({config.bind, config.port, limits_of(config)}, handlers(access)) {
   serving_ = &web_;
 }
@@ -57,6 +58,7 @@ WebServer::Handlers Server::handlers(Access& access) {
   access_api_.add_to(routes_);
   recordings_api_.add_to(routes_);
   settings_api_.add_to(routes_);
+  notes_api_.add_to(routes_);
   add_page(routes_, gate_);
   return {[this](const HttpRequest& request) { return answer(request); },
           [this](const HttpRequest& request) { return open(request); }, use_of};
@@ -80,9 +82,9 @@ std::variant<std::unique_ptr<Channel>, HttpAnswer> Server::open(const HttpReques
   if (kind == "state") return std::make_unique<StateChannel>(state_feed_, std::move(visitor.still_allowed));
   if (kind == "map") return std::make_unique<MapChannel>(map_feed_, std::move(visitor.still_allowed));
   if (kind == "video") return std::make_unique<VideoChannel>(ports_, std::move(visitor.still_allowed));
-  return std::make_unique<ControlChannel>(wheel_, ports_, clock_, events_,
-                                          ControlClient{visitor.name, visitor.role >= Role::kDriver},
-                                          std::move(visitor.still_allowed));
+  return std::make_unique<ControlChannel>(
+      wheel_, ports_, clock_, events_, ControlClient{visitor.name, visitor.role >= Role::kDriver, visitor.id},
+      std::move(visitor.still_allowed));
 }
 
 }  // namespace dynslam

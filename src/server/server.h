@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <variant>
 
@@ -9,6 +10,7 @@
 #include "server/access_gate.h"
 #include "server/api.h"
 #include "server/feeds.h"
+#include "server/notes_api.h"
 #include "server/recordings_api.h"
 #include "server/server_config.h"
 #include "server/settings_api.h"
@@ -21,8 +23,9 @@ namespace dynslam {
 class Server {
  public:
   /// All references must outlive this. Throws std::runtime_error, in one line, when it cannot listen.
-  Server(Ports& ports, const Clock& clock, Access& access, const ServerConfig& config,
-         const ServerFacts& facts, AutopilotPort autopilot = {});
+  /// `drives_itself`: whether the robot does though it has no active autopilot; empty: never.
+  Server(Ports& ports, const Clock& clock, Access& access, NoteBook& notes, const ServerConfig& config,
+         const ServerFacts& facts, std::function<bool()> drives_itself = {});
 
   int port() const { return web_.port(); }
   static bool answers_ipv6() { return WebServer::answers_ipv6(); }
@@ -43,6 +46,7 @@ class Server {
   AccessApi access_api_;
   RecordingsApi recordings_api_;
   SettingsApi settings_api_;
+  NotesApi notes_api_;
   StateFeed state_feed_;
   MapFeed map_feed_;
   RouteTable routes_;

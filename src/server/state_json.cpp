@@ -77,6 +77,65 @@ void add_drive(json& state, const DriveState& d) {
   if (d.collision) state["collision"] = *d.collision;
 }
 
+/// For drawing; so many points say enough.
+json route_json(const std::vector<Vector2>& route) {
+  constexpr std::size_t kMost = 200;
+  const std::size_t n = std::min(route.size(), kMost);
+  json points = json::array();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector2& p = route[n == 1 ? 0 : i * (route.size() - 1) / (n - 1)];
+    points.push_back({rounded(p.x(), 100), rounded(p.y(), 100)});
+  }
+  return points;
+}
+
+json goal_json(const Destination& goal) {
+  json out = {{"x_m", rounded(goal.point_map.x())}, {"y_m", rounded(goal.point_map.y())}};
+  if (goal.yaw_rad) out["yaw_rad"] = rounded(*goal.yaw_rad);
+  if (!goal.name.empty()) out["name"] = goal.name;
+  return out;
+}
+
+const char* to_string(AutopilotPhase phase) {
+  switch (phase) {
+    case AutopilotPhase::kActive:
+      return "active";
+    case AutopilotPhase::kIdle:
+      return "idle";
+    case AutopilotPhase::kStopped:
+    case AutopilotPhase::kOff:
+      break;
+  }
+  return "stopped";
+}
+
+const char* to_string(AutopilotMode mode) {
+  return mode == AutopilotMode::kExploration ? "explore" : "navigate";
+}
+
+void add_autopilot(json& state, const AutopilotStatus& a) {
+  constexpr std::size_t kMostShown = 64;
+  json places = json::array();
+  for (std::size_t i = 0; i < std::min(a.places.size(), kMostShown); ++i) {
+    const PlaceShown& p = a.places[i];
+    places.push_back(
+        {{"kind", p.kind}, {"x_m", rounded(p.point_map.x(), 100)}, {"y_m", rounded(p.point_map.y(), 100)}});
+  }
+  json autopilot = {{"mode", to_string(a.mode)},
+                    {"phase", to_string(a.phase)},
+                    {"reason", a.reason},
+                    {"goal", nullptr},
+                    {"route", route_json(a.route_map)},
+                    {"remaining_m", nullptr},
+                    {"places", places},
+                    {"nearest", nullptr}};
+  if (a.goal) autopilot["goal"] = goal_json(*a.goal);
+  if (a.remaining_m) autopilot["remaining_m"] = rounded(*a.remaining_m, 100);
+  if (a.nearest_map) autopilot["nearest"] = {rounded(a.nearest_map->x()), rounded(a.nearest_map->y())};
+  state["mode"] = to_string(a.mode);
+  state["autopilot"] = std::move(autopilot);
+}
+
 const char* to_string(LogLevel level) {
   switch (level) {
     case LogLevel::kInfo:
@@ -143,6 +202,8 @@ json state_json(const Ports& ports, const StateExtras& extras) {
                 {"driver", nullptr}};
   if (const auto world = ports.world.get().value) state["pose"] = pose_json(world->pose);
   if (const auto drive = ports.drive.get().value) add_drive(state, *drive);
+  const auto autopilot = ports.autopilot.get().value;
+  if (autopilot && autopilot->phase != AutopilotPhase::kOff) add_autopilot(state, *autopilot);
   if (const auto scan = ports.scan.get().value) {
     state["scan"] = {{"seq", extras.scan_version},
                      {"t_s", rounded(seconds_of(scan->stamp))},
@@ -151,6 +212,8 @@ json state_json(const Ports& ports, const StateExtras& extras) {
   state["power_limit"] = rounded(ports.power_limit);
   state["watchers"] = ports.watchers.load();
   if (extras.driver) state["driver"] = *extras.driver;
+  state["map_id"] = extras.map_id;
+  state["notes_version"] = extras.notes_version;
   state["recording"] = recording_json(ports);
   state["counters"] = counters_json(extras.counters);
   return state;

@@ -23,6 +23,8 @@ struct StateExtras {
   std::uint64_t scan_version = 0;
   std::optional<std::string> driver;  ///< who holds the wheel
   Counters counters;                  ///< of the server
+  std::string map_id;
+  std::uint64_t notes_version = 0;  ///< counts the changes of what people drew
 };
 
 /// The state as web/openapi.yaml describes it.

@@ -17,9 +17,10 @@ void Wheel::leave(Client client) {
   steered_ = false;
 }
 
-bool Wheel::acquire(Client client, const std::string& name, bool take_over, SteadyTime now) {
+bool Wheel::acquire(Client client, const std::string& name, bool take_over, SteadyTime now,
+                    const std::string& id) {
   const std::lock_guard lock(mutex_);
-  const DriverLease::Answer answer = lease_.acquire({client, name}, take_over, now);
+  const DriverLease::Answer answer = lease_.acquire({client, name, id}, take_over, now);
   if (answer.relieved) {
     if (!is_hands_off()) command({}, true);
     steered_ = false;
@@ -37,6 +38,21 @@ void Wheel::touch(Client client, SteadyTime now) {
 bool Wheel::is_steered() const {
   const std::lock_guard lock(mutex_);
   return steered_;
+}
+
+std::optional<std::string> Wheel::order(Order order, const std::string& id, SteadyTime now) {
+  const std::lock_guard lock(mutex_);
+  const auto& holder = lease_.holder();
+  if (steered_ && holder && holder->id != id && !lease_.is_idle(now)) return holder->name;
+  steered_ = false;
+  ports_.orders.push(std::move(order));
+  return std::nullopt;
+}
+
+bool Wheel::is_hands_off() const {
+  if (steered_) return false;
+  const auto autopilot = ports_.autopilot.get().value;
+  return (autopilot && autopilot->phase == AutopilotPhase::kActive) || (drives_itself_ && drives_itself_());
 }
 
 std::optional<Wheel::Sent> Wheel::drive(Client client, const Twist& wanted) {

@@ -22,14 +22,14 @@ struct TwistLimits {
 
 /// Between those who want to drive and the robot: one of them holds the wheel, and only he commands. What he
 /// commands is stamped with the robot's clock; when he is gone the robot stops. A robot that drives by itself
-/// goes on doing so until he steers: that somebody only watches from the driver's seat is no command. Any
-/// thread.
+/// goes on doing so until he steers: that somebody only watches from the driver's seat is no command, and
+/// what is ordered of its autopilot makes an onlooker of whoever steered. Any thread.
 class Wheel {
  public:
   using Client = DriverLease::Client;
   using SteadyTime = DriverLease::SteadyTime;
 
-  /// `drives_itself` says whether the robot does; empty: never.
+  /// `drives_itself` says whether the robot does though it has no active autopilot; empty: never.
   Wheel(Ports& ports, const Clock& clock, const TwistLimits& limits, std::function<bool()> drives_itself = {})
       : ports_(ports), clock_(clock), limits_(limits), drives_itself_(std::move(drives_itself)) {}
 
@@ -38,14 +38,20 @@ class Wheel {
   /// The client is gone: if it held the wheel, the robot stops at once and the wheel is free.
   void leave(Client client);
 
-  /// Whether the client holds the wheel then: it was free, its own, forgotten, or is taken over.
-  bool acquire(Client client, const std::string& name, bool take_over, SteadyTime now);
+  /// Whether the client holds the wheel then: it was free, its own, forgotten, or is taken over. `id`: of
+  /// what let him in.
+  bool acquire(Client client, const std::string& name, bool take_over, SteadyTime now,
+               const std::string& id = {});
   void release(Client client);
   /// The holder is still there.
   void touch(Client client, SteadyTime now);
 
   /// Whether the holder has steered since he took the wheel.
   bool is_steered() const;
+
+  /// Gives the autopilot an order, unless somebody else than the one whom `id` let in steers: then nothing
+  /// happens, and his name is returned. Nobody steers after that until he pushes again.
+  std::optional<std::string> order(Order order, const std::string& id, SteadyTime now);
 
   struct Sent {
     std::uint64_t seq = 0;  ///< as the robot sees it; 0 when it did not have to be told
@@ -75,7 +81,7 @@ class Wheel {
 
  private:
   Sent command(const Twist& twist, bool gone);
-  bool is_hands_off() const { return !steered_ && drives_itself_ && drives_itself_(); }
+  bool is_hands_off() const;
   void note_answered();
 
   Ports& ports_;

@@ -28,12 +28,7 @@ struct FixedGate : Gate {
 
 class ApiTest : public testing::Test {
  protected:
-  explicit ApiTest(AutopilotPort autopilot = {})
-      : api(ports, clock, gate, wheel, events,
-            {"1.2.3", R"({"slam":{"cell_size_m":0.02}})", {"flat", "hall"}, "flat", {}, {}, {}},
-            std::move(autopilot)) {
-    api.add_to(routes);
-  }
+  ApiTest() { api.add_to(routes); }
   HttpAnswer ask(const std::string& method, const std::string& path, const std::string& body = {}) {
     HttpRequest request{method, path, {}, {}, body, "10.0.0.7"};
     if (!body.empty()) request.headers["content-type"] = "application/json";
@@ -54,7 +49,14 @@ class ApiTest : public testing::Test {
   FixedGate gate;
   EventCounters events;
   Wheel wheel{ports, clock, {}};
-  Api api;
+  NoteBook notes{ports.map_notes, "20261126-144501", std::nullopt};
+  Api api{ports,
+          clock,
+          gate,
+          wheel,
+          notes,
+          events,
+          {"1.2.3", R"({"slam":{"cell_size_m":0.02}})", {"flat", "hall"}, "flat", {}, {}, {}}};
   RouteTable routes;
 };
 
@@ -151,22 +153,84 @@ TEST_F(ApiTest, StopsAndClears) {
   EXPECT_TRUE(ports.clear_asked);
 }
 
-struct WithAutopilot : ApiTest {
-  WithAutopilot()
-      : ApiTest({[](const Pose2& goal, bool yaw_matters) {
-                   return goal.yaw == 0.5 && yaw_matters ? "" : "there is no way";
-                 },
-                 [](const std::string& mode) { return mode == "manual" ? "" : "it is lost"; }}) {}
-};
-
-TEST_F(WithAutopilot, GoalsAndModesReachIt) {
+TEST_F(ApiTest, GivesOrdersToAnAutopilot) {
   draw_map();
-  EXPECT_EQ(status("/api/v1/goal", R"({"x_m":1,"y_m":1,"yaw_rad":0.5})"), 204);
-  const HttpAnswer refusal = ask("POST", "/api/v1/goal", R"({"x_m":1,"y_m":1})");
+  ports.autopilot.put(AutopilotStatus{});
+  ASSERT_FALSE(notes.put_place({{1.0, 2.0}, 0.5, "Kitchen"}));
+  EXPECT_EQ(status("/api/v1/goal", R"({"x_m":1,"y_m":0.5,"yaw_rad":0.5,"name":"Sofa"})"), 204);
+  EXPECT_EQ(std::get<GoThere>(*ports.orders.try_pop()).to, (Destination{{1.0, 0.5}, 0.5, "Sofa"}));
+  EXPECT_EQ(status("/api/v1/goal", R"({"x_m":1,"y_m":0.5,"name":""})"), 204);
+  EXPECT_EQ(std::get<GoThere>(*ports.orders.try_pop()).to, (Destination{{1.0, 0.5}, {}, ""}));
+  EXPECT_EQ(status("/api/v1/goal", R"({"x_m":1,"y_m":0.5,"name":"a\nb"})"), 422);
+  const auto order = [&](const std::string& body) {
+    EXPECT_EQ(status("/api/v1/mode", body), 204) << body;
+    return ports.orders.try_pop().value();
+  };
+  EXPECT_TRUE(std::holds_alternative<SwitchOff>(order(R"({"mode":"manual"})")));
+  EXPECT_TRUE(std::holds_alternative<StandBy>(order(R"({"mode":"navigate"})")));
+  EXPECT_TRUE(std::holds_alternative<Explore>(order(R"({"mode":"explore"})")));
+  EXPECT_TRUE(std::holds_alternative<GoHome>(order(R"({"mode":"home"})")));
+  const Order patrol = order(R"({"mode":"patrol","places":["Kitchen","Kitchen"]})");
+  EXPECT_EQ(std::get<Patrol>(patrol).stops,
+            (std::vector<Destination>(2, Destination{{1.0, 2.0}, 0.5, "Kitchen"})));
+  for (const char* body :
+       {R"({"mode":"patrol"})", R"({"mode":"patrol","places":[]})", R"({"mode":"patrol","places":["Attic"]})",
+        R"({"mode":"patrol","places":"Kitchen"})", R"({"mode":"patrol","places":[1]})",
+        R"({"mode":"home","places":["Kitchen"]})"})
+    EXPECT_EQ(status("/api/v1/mode", body), 422) << body;
+  EXPECT_FALSE(ports.orders.try_pop());
+}
+
+TEST_F(ApiTest, TakesNoOrdersWhileSomebodyElseSteers) {
+  draw_map();
+  ports.autopilot.put(AutopilotStatus{});
+  const auto now = std::chrono::steady_clock::now();
+  const auto bob = wheel.enter();
+  wheel.acquire(bob, "Bob", false, now, "bob's phone");
+  const char* explore = R"({"mode":"explore"})";
+  EXPECT_EQ(status("/api/v1/mode", explore), 204) << "he only looks on";
+  wheel.drive(bob, {0.1, 0.0});
+  const HttpAnswer refusal = ask("POST", "/api/v1/mode", explore);
   EXPECT_EQ(refusal.status, 409);
-  EXPECT_EQ(json::parse(refusal.body)["error"], "there is no way");
-  EXPECT_EQ(status("/api/v1/mode", R"({"mode":"explore"})"), 409);
-  EXPECT_EQ(status("/api/v1/mode", R"({"mode":"manual"})"), 204);
+  EXPECT_THAT(refusal.body, HasSubstr("Bob is driving"));
+  EXPECT_EQ(status("/api/v1/goal", R"({"x_m":1,"y_m":0.5})"), 409);
+  EXPECT_EQ(ports.orders.size(), 1U);
+  wheel.release(bob);
+  EXPECT_EQ(status("/api/v1/mode", explore), 204);
+}
+
+TEST_F(ApiTest, StateSaysHowItStandsWithTheAutopilot) {
+  EXPECT_EQ(json::parse(api.state_text())["map_id"], "20261126-144501");
+  AutopilotStatus status;
+  ports.autopilot.put(status);
+  EXPECT_TRUE(json::parse(api.state_text())["autopilot"].is_null()) << "people drive";
+  EXPECT_EQ(json::parse(api.state_text())["mode"], "manual");
+  status.phase = AutopilotPhase::kStopped;
+  status.mode = AutopilotMode::kExploration;
+  status.reason = "the way is blocked";
+  status.goal = Destination{{1.0, 2.0}, {}, "Kitchen"};
+  status.remaining_m = 3.25;
+  status.nearest_map = Vector2(1.0, 1.5);
+  for (int i = 0; i <= 1000; ++i) status.route_map.emplace_back(0.1 * i, 0.0);
+  for (int i = 0; i < 100; ++i) status.places.push_back({"frontier", {1.0 * i, 0.0}});
+  ports.autopilot.put(status);
+  const json state = json::parse(api.state_text());
+  EXPECT_EQ(state["mode"], "explore");
+  json a = state["autopilot"];
+  ASSERT_EQ(a["route"].size(), 200U);
+  EXPECT_EQ(a["route"].front(), (json{0.0, 0.0}));
+  EXPECT_EQ(a["route"].back(), (json{100.0, 0.0})) << "both ends stay";
+  ASSERT_EQ(a["places"].size(), 64U);
+  EXPECT_EQ(a["places"][1], (json{{"kind", "frontier"}, {"x_m", 1.0}, {"y_m", 0.0}}));
+  a.erase("route");
+  a.erase("places");
+  EXPECT_EQ(a, (json{{"mode", "explore"},
+                     {"phase", "stopped"},
+                     {"reason", "the way is blocked"},
+                     {"goal", {{"x_m", 1.0}, {"y_m", 2.0}, {"name", "Kitchen"}}},
+                     {"remaining_m", 3.25},
+                     {"nearest", {1.0, 1.5}}}));
+  EXPECT_THAT(ask("GET", "/metrics").body, HasSubstr("dynslam_autopilot_phase 3\n"));
 }
 
 TEST_F(ApiTest, StateIsWholeFromTheBeginning) {

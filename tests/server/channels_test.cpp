@@ -220,6 +220,43 @@ TEST(Wheel, LetsARobotDriveItselfUntilSomebodySteers) {
   EXPECT_FALSE(wheel.is_steered());
 }
 
+TEST(Wheel, AnOrderMakesAnOnlookerOfWhoeverSteered) {
+  Ports ports;
+  SteppedClock clock{time_at_s(10)};
+  Wheel wheel(ports, clock, {1.0, 2.0});
+  const auto ada = wheel.enter();
+  ASSERT_TRUE(wheel.acquire(ada, "Ada", false, at(1), "ada's phone"));
+  wheel.drive(ada, {0.5, 0.0});
+  wheel.drive(ada, {});
+  EXPECT_EQ(wheel.order(Explore{}, "bob's phone", at(2)), "Ada") << "she steers";
+  EXPECT_FALSE(ports.orders.try_pop());
+  EXPECT_FALSE(wheel.order(Explore{}, "ada's phone", at(2)));
+  EXPECT_TRUE(ports.orders.try_pop());
+  EXPECT_FALSE(wheel.is_steered());
+
+  AutopilotStatus status;
+  status.phase = AutopilotPhase::kActive;
+  ports.autopilot.put(status);
+  const auto before = ports.command.get().version;
+  EXPECT_EQ(wheel.drive(ada, {})->seq, 0U);
+  EXPECT_EQ(ports.command.get().version, before) << "her zeros do not compete";
+  wheel.drive(ada, {0.0, 0.3});
+  EXPECT_EQ(ports.command.get().value->twist.w_radps, 0.3) << "until she pushes again";
+  wheel.drive(ada, {});
+  EXPECT_EQ(ports.command.get().value->twist.w_radps, 0.0);
+  EXPECT_TRUE(wheel.is_steered());
+
+  status.phase = AutopilotPhase::kIdle;
+  ports.autopilot.put(status);
+  EXPECT_FALSE(wheel.order(StandBy{}, "ada's phone", at(3)));
+  const auto idle = ports.command.get().version;
+  wheel.drive(ada, {});
+  EXPECT_GT(ports.command.get().version, idle) << "a robot that has nothing to do hears its driver";
+  wheel.drive(ada, {0.5, 0.0});
+  EXPECT_TRUE(wheel.order(StandBy{}, "bob's phone", at(10)));
+  EXPECT_FALSE(wheel.order(StandBy{}, "bob's phone", at(12))) << "nothing was heard of her for too long";
+}
+
 TEST_F(ControlTest, CountsOnFromWhoCommandedBefore) {
   ports.command.put({500, {}, time_at_s(9), false});
   const auto a = enter("Ada");

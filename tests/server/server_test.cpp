@@ -82,7 +82,8 @@ class ServerTest : public testing::Test {
   Ports ports;
   RunningClock clock;
   Access access{{{}, "robot", std::nullopt, true, {"127.0.0.1/8"}}};
-  Server server{ports, clock, access, config(), {"1", "{}", {}, {}, {}, {}}};
+  NoteBook notes{ports.map_notes, "m", std::nullopt};
+  Server server{ports, clock, access, notes, config(), {"1", "{}", {}, {}, {}, {}}};
 };
 
 TEST_F(ServerTest, AnswersWithHeadersThatKeepBrowsersSafe) {
@@ -152,7 +153,7 @@ TEST_F(ServerTest, APortThatIsTakenIsSaidInOneLine) {
   ServerConfig second = config();
   second.port = server.port();
   try {
-    Server another(ports, clock, access, second, {});
+    Server another(ports, clock, access, notes, second, {});
     FAIL() << "two servers on one port";
   } catch (const std::runtime_error& e) {
     EXPECT_EQ(std::string(e.what()),
@@ -163,7 +164,7 @@ TEST_F(ServerTest, APortThatIsTakenIsSaidInOneLine) {
 
 TEST_F(ServerTest, EndsWhileClientsAreThere) {
   std::optional<Server> other;
-  other.emplace(ports, clock, access, config(), ServerFacts());
+  other.emplace(ports, clock, access, notes, config(), ServerFacts());
   const Client idle(other->port()), watching(other->port()), driving(other->port());
   watching.say(upgrade("video"));
   watching.hear("\r\n\r\n");

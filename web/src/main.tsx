@@ -6,6 +6,7 @@ import { scanAge_ms } from "./drive/radar";
 import { videoAge_ms } from "./drive/video";
 import { ask } from "./link/http";
 import type { Settings } from "./link/types";
+import { followNotes } from "./map/notes";
 import { robot } from "./robot";
 import { strings } from "./strings";
 import { tell } from "./ui/notices";
@@ -16,6 +17,7 @@ robot.onTrouble = (why) => tell(why ?? strings.noAnswer);
 robot.onUp = () => void ask<Settings>("GET", "api/v1/settings").then(({ name }) => (document.title = name), () => {});
 robot.start();
 sitDown();
+followNotes();
 // For whoever looks from the browser's console, or measures.
 Object.assign(window, { dynslam: { robot, scanAge_ms, videoAge_ms } });
 // The keyboard of an iPhone lies over the page, and would lie over STOP.

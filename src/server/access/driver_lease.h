@@ -22,6 +22,7 @@ class DriverLease {
   struct Holder {
     Client client = 0;
     std::string name;
+    std::string id = {};  ///< of what let him in; of all his connections
     bool operator==(const Holder&) const = default;
   };
   struct Answer {
@@ -32,7 +33,7 @@ class DriverLease {
   /// Asks for the lease; its holder renews it so.
   Answer acquire(const Holder& who, bool take_over, SteadyTime now) {
     const bool is_others = holder_ && holder_->client != who.client;
-    if (is_others && !take_over && now - heard_at_ < kIdleAfter) return {};
+    if (is_others && !take_over && !is_idle(now)) return {};
     Answer answer{true, is_others ? holder_ : std::nullopt};
     holder_ = who;
     heard_at_ = now;
@@ -54,6 +55,8 @@ class DriverLease {
   }
 
   const std::optional<Holder>& holder() const { return holder_; }
+  /// Whether nothing was heard of him for too long.
+  bool is_idle(SteadyTime now) const { return now - heard_at_ >= kIdleAfter; }
 
  private:
   std::optional<Holder> holder_;

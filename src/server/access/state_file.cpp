@@ -5,19 +5,21 @@
 #include <filesystem>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 #include "base/error.h"
 
 namespace dynslam {
 namespace {
 
-constexpr const char* kName = "access.json";
 constexpr unsigned kOwnerOnly = 0600;
 
 }  // namespace
 
-StateFile::StateFile(const std::string& folder)
-    : folder_(folder, kOwnerOnly), path_((std::filesystem::path(folder) / kName).string()) {}
+StateFile::StateFile(const std::string& folder, std::string name)
+    : folder_(folder, kOwnerOnly),
+      name_(std::move(name)),
+      path_((std::filesystem::path(folder) / name_).string()) {}
 
 std::optional<std::string> StateFile::read() const {
   std::error_code error;
@@ -38,7 +40,7 @@ std::optional<std::string> StateFile::read() const {
 }
 
 void StateFile::write(std::string_view text) {
-  folder_.stage(kName, text);
+  folder_.stage(name_, text);
   folder_.commit();
 }
 

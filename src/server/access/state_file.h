@@ -9,14 +9,14 @@
 
 namespace dynslam {
 
-/// `access.json` in the folder of the state, which this program alone holds as long as this lives. It is
-/// always whole, and only its owner may read it. One thread at a time.
+/// A file in a folder that this program alone holds as long as this lives. It is always whole, and only its
+/// owner may read it. One thread at a time.
 class StateFile {
  public:
   static constexpr std::size_t kLongest = 1 << 20;
 
   /// Throws InputError when the folder cannot be written to, or another program holds it.
-  explicit StateFile(const std::string& folder);
+  explicit StateFile(const std::string& folder, std::string name = "access.json");
 
   /// Nothing when there is none. Throws InputError when it cannot be read.
   std::optional<std::string> read() const;
@@ -27,7 +27,7 @@ class StateFile {
 
  private:
   OutputFolder folder_;
-  std::string path_;
+  std::string name_, path_;
 };
 
 }  // namespace dynslam

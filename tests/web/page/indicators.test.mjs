@@ -7,7 +7,7 @@ import { until } from "../server/robot.mjs";
 import { chip, picture, ready, Stage } from "./browser.mjs";
 
 const its = new Stage();
-const pilot = { mode: "navigate", phase: "active", reason: "", goal: null, route: [], remaining_m: null, places: [] };
+const pilot = { mode: "navigate", phase: "active", reason: "", goal: null, route: [], remaining_m: null, places: [], nearest: null };
 const goal = { x_m: 1, y_m: 0.5, yaw_rad: 0 };
 
 /** What is changed in the state, what indicator tells it, and in which words. */

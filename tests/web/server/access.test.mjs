@@ -30,7 +30,8 @@ const roles = ["anyone", "viewer", "driver", "admin"];
 const bodies = {
   setGoal: { x_m: 0, y_m: 0 }, setMode: { mode: "manual" }, setPowerLimit: { power_limit: 1 }, pair: { code: "AAAA-AAAA", name: "x" },
   invite: { role: "viewer" }, makeToken: { name: "one more", role: "viewer" },
-  changeSettings: {},
+  changeSettings: {}, putPlace: { x_m: 0, y_m: 0 }, renamePlace: { name: "p" }, putArea: { corners: [[0, 0], [1, 0], [1, 1]] },
+  putHome: { x_m: 0, y_m: 0 },
 };
 
 test("each operation is open to the role that the contract says, and to none below", async () => {

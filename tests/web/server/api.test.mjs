@@ -45,8 +45,10 @@ test("the map comes as picture, for ROS, and described", async () => {
 });
 
 const goals = [
-  [{ x_m: 0.2, y_m: 0.1 }, 501],
-  [{ x_m: 0.2, y_m: 0.1, yaw_rad: 1 }, 501],
+  [{ x_m: 0.2, y_m: 0.1 }, 204],
+  [{ x_m: 0.2, y_m: 0.1, yaw_rad: 1 }, 204],
+  [{ x_m: 0.2, y_m: 0.1, name: "Küche" }, 204],
+  [{ x_m: 0.2, y_m: 0.1, name: "a/b" }, 422],
   [{ x_m: 1000, y_m: 0 }, 422],
   [{ x_m: -1e308, y_m: 0 }, 422],
   [{ x_m: "1", y_m: 0 }, 422],
@@ -62,10 +64,13 @@ test("goals are looked at closely", async () => {
     await checkAnswer("post", "/api/v1/goal", answer);
     if (!takesBody("post", "/api/v1/goal", goal)) assert.equal(status, 422);
   }
+  assert.equal((await robot.post("/api/v1/mode", { mode: "manual" })).status, 204);
 });
 
 test("whatever the contract does not take for a body is refused, and the rest is not", async () => {
-  const bodies = [{}, { mode: "manual" }, { mode: "explore" }, { mode: "fly" }, { mode: 1 }, { power_limit: 0.5 },
+  const bodies = [{}, { mode: "manual" }, { mode: "explore" }, { mode: "navigate" }, { mode: "home" }, { mode: "fly" },
+    { mode: 1 }, { mode: "patrol" }, { mode: "patrol", places: [] }, { mode: "patrol", places: "p" }, { mode: "home", places: ["p"] }, { mode: "manual" },
+    { power_limit: 0.5 },
     { power_limit: 2 }, { power_limit: -1 }, { power_limit: "1" }, { power_limit: 0.5, more: 1 }];
   for (const path of ["/api/v1/mode", "/api/v1/power_limit"]) {
     for (const body of bodies) {
@@ -75,6 +80,42 @@ test("whatever the contract does not take for a body is refused, and the rest is
     }
   }
   assert.equal((await robot.json("/api/v1/state")).power_limit, 0.5);
+});
+
+test("what people draw is kept by name; what the contract does not take is refused", async () => {
+  const area = { corners: [[0, 0], [1, 0], [0.5, 1]] };
+  const cases = [
+    ["put", "places/{name}", "Küche 🤖", [{ x_m: 1, y_m: 2, yaw_rad: 0.5 }, { x_m: 1 }, { x_m: 1, y_m: 1001 }, { x_m: "1", y_m: 2 }, { x_m: 1, y_m: 2, z_m: 3 }]],
+    ["put", "areas/{name}", "Stairs?#%", [area, { corners: [[0, 0], [1, 0]] }, { corners: [[0, 0], [1, 0], [1]] }, { corners: [[0, 0], [1, 0], [1, -1001]] },
+      { corners: Array(65).fill([0, 0]) }, { corners: Array(64).fill([0, 0]) }, {}, area]],
+    ["put", "home", "", [{ x_m: -1, y_m: 0 }, { x_m: -1, y_m: 0, name: "Dock" }, { x_m: -1, y_m: 0, name: "a\nb" }, { y_m: 0 }]],
+  ];
+  const before = (await robot.json("/api/v1/state")).notes_version;
+  for (const [method, path, name, bodies] of cases) {
+    for (const body of bodies) {
+      const answer = await robot.fetch(`/api/v1/notes/${path.replace("{name}", encodeURIComponent(name))}`,
+        { method: "PUT", headers: { "content-type": "application/json" }, body: JSON.stringify(body) });
+      assert.equal(answer.status, takesBody(method, `/api/v1/notes/${path}`, body) ? 204 : 422, `${path} ${JSON.stringify(body).slice(0, 60)}`);
+      await checkAnswer(method, `/api/v1/notes/${path}`, answer);
+    }
+  }
+  const state = await robot.json("/api/v1/state");
+  assert.ok(state.notes_version > before);
+  const notes = await ask("get", "/api/v1/notes");
+  assert.deepEqual(notes, { map_id: state.map_id, notice: "", home: { x_m: -1, y_m: 0, name: "Dock" },
+    places: [{ name: "Küche 🤖", x_m: 1, y_m: 2, yaw_rad: 0.5 }], areas: [{ name: "Stairs?#%", ...area }] });
+  for (const name of ["x".repeat(41), "\n", ".hidden"]) {
+    const answer = await robot.fetch(`/api/v1/notes/places/${encodeURIComponent(name)}`,
+      { method: "PUT", headers: { "content-type": "application/json" }, body: '{"x_m":0,"y_m":0}' });
+    assert.equal(answer.status, 422, JSON.stringify(name));
+  }
+  assert.equal((await robot.post("/api/v1/mode", { mode: "patrol", places: ["Küche 🤖"] })).status, 204);
+  assert.equal((await robot.post("/api/v1/mode", { mode: "patrol", places: ["Attic"] })).status, 422);
+  assert.equal((await robot.post("/api/v1/mode", { mode: "manual" })).status, 204);
+  for (const path of [`places/${encodeURIComponent("Küche 🤖")}`, `areas/${encodeURIComponent("Stairs?#%")}`, "home", "notice"])
+    assert.equal((await robot.fetch(`/api/v1/notes/${path}`, { method: "DELETE" })).status, 204, path);
+  const after = await ask("get", "/api/v1/notes");
+  assert.deepEqual({ ...after, map_id: "" }, { map_id: "", notice: "", home: null, places: [], areas: [] });
 });
 
 test("settings hold from when they are changed; what the contract does not take is refused", async () => {
@@ -133,7 +174,7 @@ test("what is not there is 404, and what cannot be done with it 405", async () =
     assert.equal(answer.status, 404, path);
     assert.ok((await answer.json()).error);
   }
-  for (const [, path] of operations.filter(([, p]) => !p.includes("{"))) {
+  for (const [, path] of operations.filter(([, p]) => !p.includes("{") && !contract.paths[p].put)) {
     const answer = await robot.fetch(path, { method: "PUT" });
     assert.equal(answer.status, 405, path);
     assert.ok(answer.headers.get("allow").length > 2);

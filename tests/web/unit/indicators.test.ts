@@ -8,6 +8,8 @@ const state: State = {
   t_s: 1,
   pose: { t_s: 1, x_m: 0, y_m: 0, yaw_rad: 0, covariance: { xx_m2: 0, xy_m2: 0, yy_m2: 0, yaw_rad2: 0 }, quality: 0.9, lost: false, unsteady: null },
   mode: "manual",
+  map_id: "20261126-144501",
+  notes_version: 1,
   autopilot: null,
   verdict: { motion: "go", cause: "none", reason: "" },
   applied: { v_mps: 0, w_radps: 0 },
@@ -22,7 +24,7 @@ const state: State = {
   watchers: 0,
   counters: {},
 };
-const pilot: Autopilot = { mode: "navigate", phase: "active", reason: "", goal: null, route: [], remaining_m: null, places: [] };
+const pilot: Autopilot = { mode: "navigate", phase: "active", reason: "", goal: null, route: [], remaining_m: null, places: [], nearest: null };
 
 function seen(change: Partial<State> = {}, rest: Partial<Seen> = {}) {
   const all: Seen = {

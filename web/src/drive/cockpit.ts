@@ -2,6 +2,7 @@
 /** Everything that steers or is pressed, joined to the robot. */
 import { effect, signal } from "@preact/signals";
 import * as map from "../map/map_view";
+import { giveOrder } from "../pilot/orders";
 import { robot } from "../robot";
 import { showNext, view } from "../ui/view";
 import { rumble, watchGamepad, type PadAction } from "./gamepad";
@@ -21,17 +22,13 @@ function resizeMinimap(steps: number): void {
   minimapSize.value = Math.max(0, Math.min(MINIMAP_SIZES.length - 1, minimapSize.value + steps));
 }
 
-function setMode(mode: "manual" | "explore"): void {
-  void robot.asked("POST", "api/v1/mode", { mode });
-}
-
 /** On or off, as it was last (thesis, appendix B.1). */
 function togglePilot(): void {
-  setMode(robot.state.value?.autopilot ? "manual" : "explore");
+  void giveOrder(robot.state.value?.autopilot ? "manual" : "explore");
 }
 
 function switchPilot(): void {
-  setMode(robot.state.value?.mode === "explore" ? "manual" : "explore");
+  void giveOrder(robot.state.value?.mode === "explore" ? "navigate" : "explore");
 }
 
 function act(action: PadAction): void {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 import { IndicatorBar } from "../indicators/indicator_bar";
 import { Minimap } from "../map/minimap";
+import { isPilotOpen } from "../pilot/pages";
+import { PilotPanel } from "../pilot/pilot_panel";
 import { robot } from "../robot";
 import { show } from "../ui/view";
 import { minimapSize, MINIMAP_SIZES, steering } from "./cockpit";
@@ -29,6 +31,7 @@ export function DriveView() {
         {robot.wheel.value.mine ? <Joystick steer={steer} /> : <WheelButton />}
         <Power />
       </div>
+      {isPilotOpen.value && <div class="drive-pilot"><PilotPanel /></div>}
     </section>
   );
 }

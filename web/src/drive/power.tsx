@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { computed, signal } from "@preact/signals";
+import { PilotButton } from "../pilot/pilot_panel";
 import { robot } from "../robot";
 import { strings } from "../strings";
 
@@ -35,6 +36,7 @@ export function Power() {
   const label = strings.drive.power(percent(applied.value), percent(limit.value));
   return (
     <div class="power">
+      <PilotButton />
       <button type="button" aria-label={strings.drive.less} disabled={!robot.mayDrive} onClick={() => changePower(-1)}>−</button>
       <div class="power-bar" role="img" aria-label={label}>
         <div class="power-applied" style={{ transform: `scaleX(${applied.value})` }} />

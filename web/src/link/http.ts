@@ -15,7 +15,7 @@ export class NoAnswer extends Error {}
 
 const PATIENCE_MS = 8000;
 
-type Method = "GET" | "POST" | "PATCH" | "DELETE";
+type Method = "GET" | "POST" | "PUT" | "PATCH" | "DELETE";
 
 /** Asks the robot; gives the JSON of its answer, or undefined when that has none. Throws Refused or NoAnswer. */
 export async function ask<T>(method: Method, path: string, body?: unknown, patience_ms = PATIENCE_MS): Promise<T> {

@@ -127,7 +127,7 @@ export class RobotLink {
   }
 
   /** Asks the robot for something; whether it did it. What it says against it is shown. */
-  async asked(method: "POST" | "PATCH" | "DELETE", path: string, body?: unknown): Promise<boolean> {
+  async asked(method: "POST" | "PUT" | "PATCH" | "DELETE", path: string, body?: unknown): Promise<boolean> {
     try {
       await ask(method, path, body);
       return true;

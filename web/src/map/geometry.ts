@@ -56,3 +56,19 @@ export const AGE_STEPS_S = [60, 300, 1800] as const;
 export function ageStep(age_s: number): number {
   return AGE_STEPS_S.filter((step_s) => age_s >= step_s).length;
 }
+
+/** Whether a point is in an outline, which may cross itself: what it goes round an odd number of times is in it. */
+export function isInside(point: Point, corners: readonly Point[]): boolean {
+  let isIn = false;
+  corners.forEach((a, i) => {
+    const b = corners[(i + 1) % corners.length]!;
+    if (a.y > point.y !== b.y > point.y && point.x < a.x + ((point.y - a.y) / (b.y - a.y)) * (b.x - a.x)) isIn = !isIn;
+  });
+  return isIn;
+}
+
+/** Of the points. */
+export function middleOf(points: readonly Point[]): Point {
+  const sum = points.reduce((all, { x, y }) => ({ x: all.x + x, y: all.y + y }), { x: 0, y: 0 });
+  return { x: sum.x / points.length, y: sum.y / points.length };
+}

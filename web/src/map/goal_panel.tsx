@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
+import { useSignal } from "@preact/signals";
 import { robot } from "../robot";
 import { strings } from "../strings";
 import { Icon } from "../ui/icons";
-import { draft, dropDraft, maySend, resetGoal, sendDraft, tool } from "./tools";
+import { NameForm } from "./name_form";
+import { putPlace } from "./notes";
+import { draft, dropDraft, maySend, picked, resetGoal, sendDraft, tool } from "./tools";
 
 const TURN_RAD = Math.PI / 12;
 
@@ -16,14 +19,29 @@ export function GoalPanel() {
 }
 
 function DraftPanel() {
+  const isNaming = useSignal(false);
+  if (isNaming.value) return <NameForm label={strings.map.placeName} onName={keep} onCancel={() => (isNaming.value = false)} />;
   return (
     <div class="map-panel" role="group" aria-label={strings.map.goalPin}>
       <button type="button" class="primary" onClick={() => void sendDraft()}>{strings.map.driveThere}</button>
       <button type="button" class="map-tool" aria-label={strings.map.turnLeft} title={strings.map.turnLeft} onClick={() => turn(TURN_RAD)}><Icon name="turnLeft" /></button>
       <button type="button" class="map-tool" aria-label={strings.map.turnRight} title={strings.map.turnRight} onClick={() => turn(-TURN_RAD)}><Icon name="turnRight" /></button>
+      <button type="button" onClick={() => (isNaming.value = true)}>{strings.map.keepPlace}</button>
       <button type="button" onClick={dropDraft}>{strings.map.cancel}</button>
     </div>
   );
+}
+
+/** Gives the place a name instead. */
+async function keep(name: string): Promise<boolean> {
+  const goal = draft.value;
+  if (!goal) return false;
+  const isDone = await putPlace(name, { x_m: goal.x, y_m: goal.y, yaw_rad: goal.yaw_rad });
+  if (isDone) {
+    dropDraft();
+    picked.value = { kind: "place", name };
+  }
+  return isDone;
 }
 
 function turn(by_rad: number): void {

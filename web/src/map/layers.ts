@@ -2,12 +2,12 @@
 import { signal } from "@preact/signals";
 
 /** From the topmost. */
-export const LAYERS = ["robot", "scan", "places", "route", "trail", "graph", "age"] as const;
+export const LAYERS = ["robot", "scan", "places", "route", "notes", "trail", "graph", "age"] as const;
 export type Layer = (typeof LAYERS)[number];
 type Switches = Record<Layer, boolean>;
 
 const KEPT_AS = "dynslam.layers";
-const AT_FIRST: Switches = { robot: true, trail: true, scan: true, route: true, places: true, graph: false, age: false };
+const AT_FIRST: Switches = { robot: true, trail: true, scan: true, route: true, places: true, notes: true, graph: false, age: false };
 
 /** What is drawn over the map; kept where the browser allows it. */
 export const layers = signal<Switches>({ ...AT_FIRST, ...kept() });

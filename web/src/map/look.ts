@@ -22,6 +22,8 @@ export interface Inks {
   frontier: string;
   unvisited: string;
   old: string;
+  note: string;
+  noGo: string;
   measure: string;
   age: string;
 }
@@ -39,6 +41,8 @@ const LIGHT_INKS: Inks = {
   frontier: "#0a7a43",
   unvisited: "#0b5fc4",
   old: "#a85400",
+  note: "#7a2a8c",
+  noGo: "#b3161b",
   measure: "#8a2be2",
   age: "#6b5a3a",
 };
@@ -56,6 +60,8 @@ const DARK_INKS: Inks = {
   frontier: "#54cf8b",
   unvisited: "#5aa9ff",
   old: "#ffb650",
+  note: "#e2a4f2",
+  noGo: "#ff7b7b",
   measure: "#d7a6ff",
   age: "#000000",
 };

@@ -2,11 +2,13 @@
 import "leaflet/dist/leaflet.css";
 import "./map.css";
 import { useEffect, useRef } from "preact/hooks";
+import { PilotPanel } from "../pilot/pilot_panel";
 import { strings } from "../strings";
 import { draft, putDraft, resetGoal, sendDraft } from "./tools";
 import { GoalPanel } from "./goal_panel";
 import { Legend, MeasurePanel, ScaleBar } from "./legend";
 import { mapModel } from "./map_model";
+import { NotesNotice, OutlinePanel, PickedPanel } from "./notes_panels";
 import { Scene } from "./scene";
 import { Toolbar } from "./toolbar";
 
@@ -38,10 +40,14 @@ export function MapView({ shown }: { shown: boolean }) {
       {cellSize_m === 0 && <p class="map-waiting">{strings.map.waiting}</p>}
       <Toolbar centre={centre} zoomBy={zoomBy} />
       <div class="map-foot">
+        <NotesNotice />
+        <PickedPanel />
+        <OutlinePanel />
         <GoalPanel />
         <MeasurePanel />
         <Legend />
         <ScaleBar />
+        {shown && <PilotPanel />}
       </div>
     </section>
   );

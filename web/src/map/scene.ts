@@ -11,6 +11,7 @@ import { OverlayCanvas } from "./overlay_canvas";
 import { ageOverlay } from "./overlays/age_overlay";
 import { followGraph, graphOverlay } from "./overlays/graph_overlay";
 import { measureOverlay } from "./overlays/measure_overlay";
+import { notesOverlay, outlineOverlay } from "./overlays/notes_overlay";
 import type { Overlay } from "./overlays/pen";
 import { placesOverlay } from "./overlays/places_overlay";
 import { robotOverlay } from "./overlays/robot_overlay";
@@ -18,18 +19,21 @@ import { routeOverlay } from "./overlays/route_overlay";
 import { scanOverlay } from "./overlays/scan_overlay";
 import { trailOverlay } from "./overlays/trail_overlay";
 import { TOP_LEVEL } from "./pyramid";
-import { draft, follows, putDraft, useToolAt } from "./tools";
+import { draft, follows, outline, putDraft, useToolAt } from "./tools";
 
 /** What the first look shows from side to side, at least: a few rooms. */
 const FIRST_LOOK_M = 12;
 /** The robot may go this far from the middle, as a part of the screen, before the map follows. */
 const SLACK = 0.12;
+/** What is so near to where one taps is meant. */
+const TAP_PX = 24;
 
 const OVERLAYS: Record<Layer, Overlay> = {
   robot: robotOverlay,
   scan: scanOverlay,
   places: placesOverlay,
   route: routeOverlay,
+  notes: notesOverlay,
   trail: trailOverlay,
   graph: graphOverlay,
   age: ageOverlay,
@@ -63,7 +67,7 @@ export class Scene {
       zoom: firstZoom(element, cellSize_m),
     });
     this.cells.addTo(this.map);
-    this.overlays = new OverlayCanvas(this.map, () => [...FROM_LOWEST.filter((layer) => layers.value[layer]).map((layer) => OVERLAYS[layer]), measureOverlay]);
+    this.overlays = new OverlayCanvas(this.map, () => [...FROM_LOWEST.filter((layer) => layers.value[layer]).map((layer) => OVERLAYS[layer]), outlineOverlay, measureOverlay]);
     this.goal = new GoalMarkers(this.map);
     this.listen();
     this.ends = [
@@ -123,12 +127,12 @@ export class Scene {
       this.cells.hold(true);
     });
     this.map.on("dragend", () => this.cells.hold(!this.isShown));
-    this.map.on("click", (event: LeafletMouseEvent) => useToolAt(pointOf(event.latlng)));
+    this.map.on("click", (event: LeafletMouseEvent) => useToolAt(pointOf(event.latlng), TAP_PX / pixelsPerMetre.peek()));
     this.map.on("zoomend", () => this.tellScale());
     // For who has no pointer: the arrows move the map under the cross in its middle.
     element.addEventListener("keydown", (event) => {
       if (event.target !== element) return;
-      if (event.key === "Enter") useToolAt(this.middle);
+      if (event.key === "Enter") useToolAt(this.middle, TAP_PX / pixelsPerMetre.peek());
       else if (event.key.startsWith("Arrow")) follows.value = false;
     });
   }
@@ -141,7 +145,7 @@ export class Scene {
   /** In steps, and not with each state: a map that is always moving is hard to look at, and dear. */
   private follow(): void {
     const place = robotsPlace();
-    if (!follows.value || !place || !this.isShown || draft.value) return;
+    if (!follows.value || !place || !this.isShown || draft.value || outline.value.length > 0) return;
     const size = this.map.getSize();
     const off = this.map.latLngToContainerPoint(latLng(place)).subtract(size.divideBy(2));
     if (Math.abs(off.x) > SLACK * size.x || Math.abs(off.y) > SLACK * size.y) this.map.panTo(latLng(place));

@@ -24,6 +24,7 @@ export function Toolbar({ centre, zoomBy }: Actions) {
         <ToolButton icon="zoomIn" title={words.zoomIn} onClick={() => zoomBy(1)} />
         <ToolButton icon="zoomOut" title={words.zoomOut} onClick={() => zoomBy(-1)} />
         {maySend.value && <ToolButton icon="flag" title={words.goTool} isOn={tool.value === "goal"} onClick={() => takeTool("goal")} />}
+        {maySend.value && <ToolButton icon="noGo" title={words.areaTool} isOn={tool.value === "area"} onClick={() => takeTool("area")} />}
         <ToolButton icon="measure" title={words.measure} isOn={tool.value === "measure"} onClick={() => takeTool("measure")} />
         <ToolButton icon="layers" title={words.layers} isOn={isOpen.value} onClick={() => (isOpen.value = !isOpen.value)} />
         <ToolButton icon="save" title={words.save} onClick={() => void savePicture()} />

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 import { computed, signal } from "@preact/signals";
+import { goTo, giveOrder } from "../pilot/orders";
 import { robot } from "../robot";
-import type { Point } from "./geometry";
+import { areaAt, MOST_CORNERS, placeAt } from "./drawn";
+import { distance, type Point } from "./geometry";
+import { notes } from "./notes";
 
 /** What a tap on the map does. */
-export type Tool = "look" | "measure" | "goal";
+export type Tool = "look" | "measure" | "goal" | "area";
 export const tool = signal<Tool>("look");
 
 /** Whether the map keeps the robot in sight. */
@@ -12,6 +15,17 @@ export const follows = signal(true);
 
 /** The points between which is measured. */
 export const measured = signal<Point[]>([]);
+
+/** The corners of the area that is being drawn; `isClosed` when only its name is missing. */
+export const outline = signal<Point[]>([]);
+export const isClosed = signal(false);
+
+/** What people drew and somebody tapped. */
+export interface Picked {
+  kind: "place" | "area";
+  name: string;
+}
+export const picked = signal<Picked | null>(null);
 
 /** A destination that nobody has sent the robot to yet; without `yaw_rad` it may look anywhere then. */
 export interface Draft extends Point {
@@ -28,25 +42,50 @@ export const maySend = computed(() => {
 export function takeTool(wanted: Tool): void {
   tool.value = tool.value === wanted ? "look" : wanted;
   measured.value = [];
+  dropOutline();
+  picked.value = null;
   if (tool.value !== "goal") draft.value = null;
 }
 
-/** A tap at a place, or what stands for one. */
-export function useToolAt(place: Point): void {
+/** A tap at a place, or what stands for one; what is within reach of it is meant. */
+export function useToolAt(place: Point, reach_m: number): void {
   if (tool.value === "measure") measured.value = [...measured.value, place];
   else if (tool.value === "goal") putDraft(place);
+  else if (tool.value === "area") addCorner(place, reach_m);
+  else pickAt(place, reach_m);
+}
+
+function pickAt(point: Point, reach_m: number): void {
+  // A pin stands above its place.
+  const above = { x: point.x, y: point.y - reach_m / 2 };
+  const place = placeAt(notes.value?.places ?? [], above, reach_m);
+  const area = place ? null : areaAt(notes.value?.areas ?? [], point);
+  picked.value = place ? { kind: "place", name: place.name } : area && { kind: "area", name: area.name };
+}
+
+function addCorner(corner: Point, reach_m: number): void {
+  const corners = outline.value;
+  if (isClosed.value) return;
+  if (corners.length > 2 && distance(corners[0]!, corner) <= reach_m) isClosed.value = true;
+  else if (corners.length < MOST_CORNERS) outline.value = [...corners, corner];
+}
+
+export function dropOutline(): void {
+  outline.value = [];
+  isClosed.value = false;
 }
 
 export function putDraft(place: Point): void {
-  if (maySend.value) draft.value = place;
+  if (!maySend.value) return;
+  picked.value = null;
+  draft.value = place;
 }
 
 export async function sendDraft(): Promise<void> {
   const goal = draft.value;
   if (!goal) return;
   const { x, y, yaw_rad } = goal;
-  const sent = await robot.asked("POST", "api/v1/goal", { x_m: x, y_m: y, ...(yaw_rad === undefined ? {} : { yaw_rad }) });
-  if (sent && draft.value === goal) dropDraft();
+  if ((await goTo({ x_m: x, y_m: y, yaw_rad })) && draft.value === goal) dropDraft();
 }
 
 export function dropDraft(): void {
@@ -57,5 +96,6 @@ export function dropDraft(): void {
 /** The robot forgets where it was sent. */
 export function resetGoal(): void {
   dropDraft();
-  if (maySend.value && robot.state.value?.autopilot?.goal) void robot.asked("POST", "api/v1/mode", { mode: "manual" });
+  if (maySend.value && robot.state.value?.autopilot?.goal) void giveOrder("navigate");
 }
+

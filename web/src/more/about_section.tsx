@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+import { robot } from "../robot";
 import { strings } from "../strings";
 import { useAsked } from "./asking";
 import { clockText } from "./format";
@@ -25,6 +26,7 @@ export function AboutSection() {
           <div><dt>{words.version}</dt><dd>{health?.version ?? "…"}</dd></div>
           <div><dt>{words.uptime}</dt><dd>{health ? clockText(health.uptime_s) : "…"}</dd></div>
           {worlds?.current && <div><dt>{words.world}</dt><dd>{worlds.current}</dd></div>}
+          {robot.state.value?.map_id && <div><dt>{words.map}</dt><dd>{robot.state.value.map_id}</dd></div>}
           <div class="wide"><dt>{words.address}</dt><dd class="breaks">{location.origin}</dd></div>
         </dl>
       </Part>

@@ -27,6 +27,10 @@ const PATHS = {
   save: "M12 4v11M7 10l5 5 5-5M4 20h16",
   turnLeft: "M5 5v5h5M5.5 10a7 7 0 1 1-.5 5",
   turnRight: "M19 5v5h-5M18.5 10a7 7 0 1 0 .5 5",
+  noGo: "M4 8l5-4 8 2 3 7-5 7-9-2zM8 18l9-11M5.5 14l5-7",
+  close: "M6 6l12 12M18 6L6 18",
+  up: "M5 15l7-7 7 7",
+  down: "M5 9l7 7 7-7",
   record: "M12 7a5 5 0 1 0 0 10 5 5 0 0 0 0-10z",
 };
 export type IconName = keyof typeof PATHS;

@@ -12,6 +12,8 @@ export interface Pen {
   at: (point: Point) => [x: number, y: number];
 }
 
+const HATCH_PX = 8;
+
 export type Overlay = (pen: Pen) => void;
 
 /** Moves along the points; the caller strokes. */
@@ -41,4 +43,22 @@ export function write({ context, inks }: Pen, text: string, x: number, y: number
   context.strokeText(text, x, y);
   context.fillStyle = ink;
   context.fillText(text, x, y);
+}
+
+/** Lines from the left below to the right above, where `where` is; fixed to the map, so that they do not swim when it is moved. */
+export function hatch({ context, width, height, at }: Pen, where: Path2D, ink: string, strength: number): void {
+  context.save();
+  context.clip(where, "evenodd");
+  context.beginPath();
+  const [x, y] = at({ x: 0, y: 0 });
+  const first = (((x + y) % HATCH_PX) + HATCH_PX) % HATCH_PX;
+  for (let sum = first; sum < width + height; sum += HATCH_PX) {
+    context.moveTo(sum, 0);
+    context.lineTo(sum - height, height);
+  }
+  context.strokeStyle = ink;
+  context.globalAlpha = strength;
+  context.lineWidth = 1;
+  context.stroke();
+  context.restore();
 }
