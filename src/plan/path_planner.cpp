@@ -48,6 +48,17 @@ std::optional<std::string> trouble_at(const Costmap& costmap, const Ground& grou
   return std::nullopt;
 }
 
+/// The farthest point on the way from a free place to one that is not.
+Vector2 as_far_as_free(const Costmap& costmap, const Ground& legs, const Vector2& from, const Vector2& to) {
+  const double length_m = (to - from).norm();
+  const int steps = static_cast<int>(length_m / costmap.cell_size_m());
+  for (int i = steps; i > 0; --i) {
+    const Vector2 p = from + i * costmap.cell_size_m() / length_m * (to - from);
+    if (costmap.contains(p) && leg_cost(costmap, legs, from, p)) return p;
+  }
+  return from;
+}
+
 }  // namespace
 
 Plan PathPlanner::plan(const Costmap& costmap, const PlanRequest& request) {
@@ -71,7 +82,7 @@ Plan PathPlanner::plan(const Costmap& costmap, const PlanRequest& request) {
   plan.outcome = found.exactly ? PlanOutcome::kFound : PlanOutcome::kNearby;
   std::vector<Vector2> open = centres_to(costmap, found.end);
   open.insert(open.begin(), out->back());
-  if (found.exactly) open.push_back(goal);
+  open.push_back(*found.last);
   plan.route_map.assign(out->begin(), out->end() - 1);
   for (const Vector2& p : pulled(std::move(open), costmap, legs)) plan.route_map.push_back(p);
   plan.length_m = length_of(plan.route_map);
@@ -88,8 +99,10 @@ PathPlanner::Found PathPlanner::search(const Costmap& costmap, const Ground& cel
   const std::size_t first = grid.index_of(cell_at(from, cell_m));
   const std::size_t aim = grid.index_of(cell_at(aim_point, cell_m));
   const bool may_end = !trouble_at(costmap, cells, goal);
+  const double dearest =
+      1 + config_.comfort_weight;  // what is near to a goal that is too tight is tight itself
   const auto around = static_cast<std::uint32_t>(
-      std::min(1e6, 8 * CoarseSearch::kStep * config_.goal_tolerance_m / (kCoarseSide * cell_m)));
+      std::min(1e6, 8 * CoarseSearch::kStep * dearest * config_.goal_tolerance_m / (kCoarseSide * cell_m)));
 
   Found found{first, std::nullopt, false, false};
   double least_m = std::numeric_limits<double>::infinity();
@@ -112,7 +125,8 @@ PathPlanner::Found PathPlanner::search(const Costmap& costmap, const Ground& cel
     search_.expand(*settled);
   }
   const Vector2 nearest = best_point(costmap, found.end);
-  if ((nearest - goal).norm() <= config_.goal_tolerance_m) found.last = nearest;
+  if ((nearest - goal).norm() <= config_.goal_tolerance_m)
+    found.last = as_far_as_free(costmap, legs, nearest, goal);
   return found;
 }
 

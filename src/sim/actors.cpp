@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/robot_shape.h"
 
@@ -15,6 +16,7 @@ constexpr double kPersonReach_m = 0.36;  ///< of a leg in mid-stride, and a litt
 constexpr double kLookAhead_m = 0.3;
 constexpr double kPatience_s = 5.0;
 constexpr double kGap_m = 0.03;
+constexpr double kForesight_s = 0.6;  ///< who moves a door minds where the robot is driving
 
 Colour mixed(Colour c, double share) {
   Colour out = 0;
@@ -121,7 +123,9 @@ bool Actors::step_door(DoorState& state, double now_s, double dt_s, const Pose2&
   const double most = state.door.speed_radps * dt_s / std::abs(state.door.opens_rad);
   const double next = state.open + std::clamp(wanted - state.open, -most, most);
   const auto [from, to] = state.leaf(next);
-  if (distance_to_robot(world_T_robot, from, to) < kLeafThickness_m / 2 + kGap_m) return false;
+  for (const Pose2& robot : {world_T_robot, world_T_robot_soon_}) {
+    if (distance_to_robot(robot, from, to) < kLeafThickness_m / 2 + kGap_m) return false;
+  }
   for (const PersonState& p : people_) {
     if (distance_to_segment(p.at, from, to) < kPersonRadius_m) return false;
   }
@@ -208,6 +212,8 @@ bool Actors::step_furniture(FurnitureState& state, double now_s, double dt_s,
 
 bool Actors::step(double now_s, double dt_s, const Pose2& world_T_robot) {
   bool moved = false;
+  const Pose2 before = std::exchange(world_T_robot_, world_T_robot).value_or(world_T_robot);
+  world_T_robot_soon_ = interpolate(before, world_T_robot, 1.0 + kForesight_s / dt_s);
   for (DoorState& door : doors_) moved |= step_door(door, now_s, dt_s, world_T_robot);
   for (PersonState& person : people_) moved |= step_person(person, now_s, dt_s, world_T_robot);
   for (FurnitureState& thing : furniture_) moved |= step_furniture(thing, now_s, dt_s, world_T_robot);

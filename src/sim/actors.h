@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim/surface.h"
@@ -56,6 +57,8 @@ class Actors {
   std::vector<PersonState> people_;
   std::vector<FurnitureState> furniture_;
   int first_part_ = 0;
+  std::optional<Pose2> world_T_robot_;  ///< at the last step
+  Pose2 world_T_robot_soon_;            ///< if it drives on like this
 };
 
 }  // namespace dynslam

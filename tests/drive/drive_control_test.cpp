@@ -256,8 +256,8 @@ TEST(DriveConfig, EveryTableNamesItsFieldsAndDefaultsLieWithinTheLimits) {
       EXPECT_FALSE(field.doc.empty());
     });
   });
-  EXPECT_EQ(tables, 6);
-  EXPECT_EQ(fields, 2 + 2 + 12 + 7 + 10 + 10);
+  EXPECT_EQ(tables, 7);
+  EXPECT_EQ(fields, 2 + 2 + 12 + 7 + 10 + 10 + 17);
 }
 
 }  // namespace
