@@ -52,6 +52,13 @@ void move_away(const fs::path& from, const fs::path& to) {
     throw InputError("cannot move " + from.string() + " to " + to.string() + ": " + failed.message());
 }
 
+/// A clock that is set back may give two maps one id.
+std::string free_name(const fs::path& folder, const std::string& stem) {
+  std::string name = stem + ".json";
+  for (int n = 2; fs::exists(folder / name); ++n) name = stem + '-' + std::to_string(n) + ".json";
+  return name;
+}
+
 /// Of the older maps; those of the newest stay.
 void remove_oldest(const fs::path& folder) {
   std::vector<fs::path> older;
@@ -80,17 +87,10 @@ NoteBook::NoteBook(Latest<MapNotes>& robot, std::string map_id, const std::optio
   tell();
 }
 
-/// What is new is saved for the notice; that is no reason not to start.
+/// What is new is saved for the notice; that it cannot be is no reason not to start.
 void NoteBook::open(const std::string& folder) {
   file_.emplace(folder, "notes.json");
-  std::optional<std::string> text;
-  try {
-    text = file_->read();
-    if (text) notes_.notice = set_aside(notes_from(*text));
-  } catch (const InputError&) {
-    notes_.notice = "What was drawn on the map could not be read; it is kept as notes.json.damaged.";
-    move_away(file_->path(), file_->path() + ".damaged");
-  }
+  if (const auto older = take_older()) notes_.notice = set_aside(*older);
   try {
     if (!notes_.notice.empty()) file_->write(notes_text(notes_));
   } catch (const std::runtime_error&) {
@@ -98,11 +98,23 @@ void NoteBook::open(const std::string& folder) {
   }
 }
 
+std::optional<Notes> NoteBook::take_older() {
+  try {
+    const auto text = file_->read();
+    return text ? std::optional(notes_from(*text)) : std::nullopt;
+  } catch (const InputError& error) {
+    notes_.notice = std::string("What was drawn on the map could not be read (") + error.what() +
+                    "). It is kept as notes.json.damaged.";
+  }
+  move_away(file_->path(), file_->path() + ".damaged");
+  return std::nullopt;
+}
+
 /// Returns what people should know of it.
 std::string NoteBook::set_aside(const Notes& older) const {
   if (older.is_empty()) return older.notice;
   const fs::path folder = fs::path(file_->path()).parent_path();
-  const std::string name = "notes-" + older.map_id + ".json";
+  const std::string name = free_name(folder, "notes-" + older.map_id);
   move_away(file_->path(), folder / name);
   remove_oldest(folder);
   return "The robot began a new map. What was drawn on the one before does not hold any more; it is kept "

@@ -51,6 +51,7 @@ class NoteBook {
  private:
   Refused change(const std::function<Refused(Notes&)>& edit);
   void open(const std::string& folder);
+  std::optional<Notes> take_older();
   std::string set_aside(const Notes& older) const;
   void tell() { robot_.put(notes_.for_robot()); }
 

@@ -153,6 +153,14 @@ TEST_F(NoteBookTest, KeepsTheNewestTen) {
     EXPECT_TRUE(fs::exists(folder_ / ("notes-" + std::to_string(map) + ".json"))) << map;
 }
 
+TEST_F(NoteBookTest, LosesNothingWhenTwoMapsHaveOneId) {
+  for (const char* name : {"a", "b", "c"}) EXPECT_EQ(status(start("7")->put_place({{0, 0}, {}, name})), 204);
+  EXPECT_THAT(start("7")->notes().notice, HasSubstr("notes-7-3.json"));
+  EXPECT_EQ(notes_from(text("notes-7.json")).places.at(0).name, "a");
+  EXPECT_EQ(notes_from(text("notes-7-2.json")).places.at(0).name, "b");
+  EXPECT_EQ(notes_from(text("notes-7-3.json")).places.at(0).name, "c");
+}
+
 TEST_F(NoteBookTest, SetsAsideWhatCannotBeReadAndGoesOn) {
   const std::string whole = [&] {
     auto book = start("1");

@@ -13,8 +13,9 @@ const TURN_RAD = Math.PI / 12;
 export function GoalPanel() {
   if (!maySend.value) return null;
   if (draft.value) return <DraftPanel />;
-  const goal = robot.state.value?.autopilot?.goal;
-  if (!goal) return tool.value === "goal" ? <p class="map-panel">{strings.map.tapGoal}</p> : null;
+  const pilot = robot.state.value?.autopilot;
+  // Where it explores it chooses itself.
+  if (!pilot?.goal || pilot.mode === "explore") return tool.value === "goal" ? <p class="map-panel">{strings.map.tapGoal}</p> : null;
   return <button type="button" class="map-reset" onClick={resetGoal}>{strings.map.resetGoal}</button>;
 }
 
