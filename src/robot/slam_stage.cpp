@@ -51,6 +51,7 @@ void SlamStage::finish() {
     show(*result);
   }
   slam_.finish();
+  ports_.graph.put(graph_view(slam_.back_end()));  // what was worked off here, nobody was told of
 }
 
 Counters SlamStage::queue_counters() const {
