@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The program as a user meets it: run as a process, judged by exit code, stderr and files.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>

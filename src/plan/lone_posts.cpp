@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "plan/lone_posts.h"
 
+#include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <cstdlib>
 
 namespace dynslam {

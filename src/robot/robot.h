@@ -54,7 +54,7 @@ class Robot {
   };
   /// Motors first, then everything else. No thread is waited for longer than `patience`; but the recorder's,
   /// which may have to wait for a disk, for some seconds.
-  Ending stop(std::chrono::milliseconds patience = std::chrono::milliseconds(600));
+  Ending stop(std::chrono::milliseconds patience = std::chrono::seconds(2));
 
   /// Instead of threads: works off all that is due by the clock.
   void step();

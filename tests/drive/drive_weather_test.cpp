@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Random inputs of every kind, among them every kind of lie: whatever comes, no motor moves while a stop
 // stands, and what a stop is is told here independently of Safety.
+#include <algorithm>
 #include <limits>
 #include <random>
 #include <set>

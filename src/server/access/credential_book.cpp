@@ -2,6 +2,7 @@
 #include "server/access/credential_book.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <set>
 
 #include <nlohmann/json.hpp>

@@ -2,6 +2,7 @@
 #include "server/access/secrets.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 #include <sodium.h>
