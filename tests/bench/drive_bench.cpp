@@ -51,7 +51,7 @@ void control_tick(benchmark::State& state, const DrawnWorld& world) {
                                                                  Eigen::Vector3d::UnitZ()))};
     in.motors = {now, {12.4, false, false, true}};
     in.pins = {now, {}};
-    const DriveOutput out = control.step(now, in);
+    DriveOutput out = control.step(now, in);
     motion = out.verdict.motion;
     benchmark::DoNotOptimize(out.power);
   }
@@ -73,7 +73,7 @@ void follower_next(benchmark::State& state, const DrawnWorld& world) {
   for (auto _ : state) {
     now += milliseconds(50);
     const double off = 0.01 * static_cast<double>(++tick % 7);
-    const FollowOutput out = follower.next({now, {0.1 + off, off, off}, {0.3, 0.1}}, motion);
+    FollowOutput out = follower.next({now, {0.1 + off, off, off}, {0.3, 0.1}}, motion);
     last = out.state;
     benchmark::DoNotOptimize(out.twist);
     if (tick % 32 == 0)
