@@ -93,7 +93,7 @@ void Autopilot::observe(Time now, const AutopilotInputs& in) {
   if (!in.world || !is_on()) return;
   map_ = in.world->map;
   if (!costmap_) costmap_.emplace(map_.cell_size_m());
-  if (in.notes != notes_) {
+  if (in.notes && in.notes != notes_) {
     notes_ = in.notes;
     costmap_->set_forbidden(notes_->forbidden_map);
   }

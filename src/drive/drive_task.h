@@ -16,6 +16,7 @@ struct DriveTask {
   std::optional<double> yaw_rad;   ///< to face at the end, in the map's frame
   double most_mps = 0.5;           ///< speed limit
   bool stops_at_end = true;        ///< comes to rest at the end; else passing near it is enough
+  bool operator==(const DriveTask&) const = default;
 };
 
 }  // namespace dynslam

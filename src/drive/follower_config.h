@@ -26,7 +26,7 @@ struct FollowerConfig {
   double goal_rad = 0.087;
   double pass_m = 0.25;
   double blocked_s = 2.0;
-  double no_progress_s = 3.0;
+  double no_progress_s = 2.0;
 
   /// What is wrong with the values together, if anything.
   std::optional<std::string> problem() const {

@@ -38,8 +38,8 @@ void AutopilotStage::plan_turn() {
   in.condition = condition(in.world);
   in.is_steered = steered_.exchange(false) && orders.empty();
   const AutopilotStatus& status = autopilot_.turn(now, in);
-  wanted_.put(
-      {now, status.phase == AutopilotPhase::kActive, autopilot_.task(), autopilot_.look_round_radps()});
+  wanted_.put({now, status.errand, status.phase == AutopilotPhase::kActive, autopilot_.task(),
+               autopilot_.look_round_radps()});
   ports_.autopilot.put(status);
   plan_due_ = std::max(plan_due_ + kPlanEvery, now);
 }
@@ -63,19 +63,29 @@ void AutopilotStage::pilot_turn() {
   feel(now);
   if (!wanted.value || !wanted.value->drives || now - wanted.value->time > kPlanHolds) return let_go();
   if (is_steered_by_others()) {
+    yielded_ = wanted.value->errand;
     steered_ = true;
+  }
+  // The planning turn is told, but may take its time: no word more until there is another errand.
+  if (yielded_ == wanted.value->errand) {
+    follow(std::nullopt);
     sent_.reset();
     return;
   }
-  if (wanted.version != std::exchange(wanted_version_, wanted.version)) {
-    if (wanted.value->task) {
-      follower_.follow(*wanted.value->task);
-    } else {
-      follower_.halt();
-    }
-  }
+  follow(wanted.value->task);
   const Twist twist = wanted_twist(now, *wanted.value);
   command(now, twist, false);
+}
+
+/// Only what is new: the follower's patience begins anew with each route.
+void AutopilotStage::follow(const std::optional<DriveTask>& task) {
+  if (task == followed_) return;
+  followed_ = task;
+  if (task) {
+    follower_.follow(*task);
+  } else {
+    follower_.halt();
+  }
 }
 
 /// Somebody else commanded since, and to move.
@@ -87,7 +97,7 @@ bool AutopilotStage::is_steered_by_others() const {
 
 /// Leaves the wheel to whoever takes it.
 void AutopilotStage::let_go() {
-  follower_.halt();
+  follow(std::nullopt);
   if (sent_ && !is_steered_by_others()) command(clock_.now(), {}, true);
   sent_.reset();
 }

@@ -40,6 +40,7 @@ class AutopilotStage {
   /// From the one turn to the other.
   struct Wanted {
     Time time;
+    std::uint64_t errand = 0;
     bool drives = false;
     std::optional<DriveTask> task = {};
     double look_round_radps = 0.0;
@@ -48,6 +49,7 @@ class AutopilotStage {
   bool is_steered_by_others() const;
   void let_go();
   void feel(Time now);
+  void follow(const std::optional<DriveTask>& task);
   Twist wanted_twist(Time now, const Wanted& wanted);
   void command(Time now, const Twist& twist, bool gone);
 
@@ -68,8 +70,10 @@ class AutopilotStage {
   SpeedControl speed_;
   RecentMotion motion_;
   Time pilot_due_;
-  std::uint64_t wanted_version_ = 0, scan_version_ = 0;
-  std::optional<DriveCommand> sent_;  ///< the last one; nothing while it does not drive
+  std::uint64_t scan_version_ = 0;
+  std::optional<DriveTask> followed_;
+  std::optional<std::uint64_t> yielded_;  ///< the errand in which a person took the wheel
+  std::optional<DriveCommand> sent_;      ///< the last one; nothing while it does not drive
   std::shared_ptr<const WorldState> world_;
   Twist applied_, measured_;
 };

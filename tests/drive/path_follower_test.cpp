@@ -253,7 +253,7 @@ TEST(PathFollower, NoticesThatItsWheelsSlip) {
   const double since = robot.seconds();
   FollowOutput out = robot.run_to_end(10.0);
   EXPECT_EQ(out.state, Following::kStuck);
-  EXPECT_NEAR(robot.seconds() - since, 3.5, 1.0);
+  EXPECT_NEAR(robot.seconds() - since, 2.5, 1.0);
   EXPECT_FALSE(is_moving(robot.tick().twist)) << "until somebody decides";
   robot.slips = false;
   robot.follower.follow(route({{0, 0}, {5, 0}}));
