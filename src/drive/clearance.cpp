@@ -16,6 +16,7 @@ constexpr double kLeastSpeed_mps = 0.03;
 
 void Clearance::see(const Scan& scan, const RecentMotion& motion) {
   points_ = obstacle_points(scan, body_, config_.min_range_m, motion);
+  near_.add_to(points_, scan, body_, motion);
   end_ = end_of(scan);
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/config_field.h"
 #include "base/twist.h"
+#include "drive/near_memory.h"
 #include "drive/obstacle_points.h"
 #include "drive/sweep.h"
 
@@ -22,6 +23,7 @@ struct ClearanceConfig {
   double creep_mps = 0.1;
   double creep_margin_m = 0.01;
   double min_range_m = 0.1;
+  double blind_m = 0.2;
 
   /// What is wrong with the values together, if anything.
   std::optional<std::string> problem() const {
@@ -41,6 +43,9 @@ struct ClearanceConfig {
     visit(Field{"creep_mps", "slower than this, less room on the sides is enough", 0.0, 2.0}, self.creep_mps);
     visit(Field{"creep_margin_m", "namely so much", 0.005, 2.0}, self.creep_margin_m);
     visit(Field{"min_range_m", "returns nearer to the lidar are no obstacles", 0.0, 5.0}, self.min_range_m);
+    visit(Field{"blind_m", "the lidar sees nothing nearer than this: what came so near is remembered", 0.0,
+                1.0},
+          self.blind_m);
   }
 };
 
@@ -53,15 +58,19 @@ struct ClearWay {
 /// The collision zone: sweeps the robot's rectangle along the arc that is wanted through the newest scan's
 /// returns. The scan is old by the time it is used: the robot may have moved as commanded since then, or not
 /// at all yet, and has to stop in time in both cases. It sees the lidar's plane only, and no further than
-/// where the lidar looked. What moves towards the robot is taken to stand still.
+/// where the lidar looked; what is too near for the lidar it remembers. What moves towards the robot is taken
+/// to stand still.
 class Clearance {
  public:
   explicit Clearance(const BodyConfig& body = {}, const ClearanceConfig& config = {})
-      : body_(body), config_(config) {}
+      : body_(body), config_(config), near_(config.blind_m) {}
 
   /// The newest scan to go by.
   void see(const Scan& scan, const RecentMotion& motion);
-  void forget() { end_.reset(); }
+  void forget() {
+    end_.reset();
+    near_.forget();
+  }
   /// How much of `twist` is free; nothing of it without a scan. Other motions may be free when this one is
   /// not. The allowed speed depends on the arc, not on how fast it is asked for. REQUIRES: finite.
   ClearWay way(Time now, const Twist& twist, const RecentMotion& motion) const;
@@ -87,6 +96,7 @@ class Clearance {
 
   BodyConfig body_;
   ClearanceConfig config_;
+  NearMemory near_;
   std::vector<ObstaclePoint> points_;  ///< from the robot at the scan's end
   std::optional<Time> end_;            ///< of the scan
 };

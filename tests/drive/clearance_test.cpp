@@ -178,6 +178,50 @@ TEST(Clearance, KnowsWhereTheLidarSits) {
 }
 
 /// Drives ahead at 1 m/s for 200 ms after the scan of a wall.
+/// As a lidar that sees nothing nearer than 0.2 m.
+Scan as_a3(Scan scan) {
+  for (Beam& beam : scan.beams)
+    if (beam.range_m < 0.2F) beam.range_m = kInf;
+  return scan;
+}
+
+TEST(Clearance, RemembersWhatIsTooNearToBeSeen) {
+  const auto leaf_at = [](double y) { return DrawnWorld{{{-0.12, y, 0.12, y}}, {}}; };
+  Clearance fresh, seen_coming;
+  Time now{};
+  for (const double y : {0.3, 0.26, 0.22, 0.16, 0.16, 0.16}) {
+    now += milliseconds(100);
+    seen_coming.see(as_a3(scan_of(leaf_at(y), now)), {});
+  }
+  fresh.see(as_a3(scan_of(leaf_at(0.16), now)), {});
+  EXPECT_LT(seen_coming.way(now, kLeft, {}).share, 0.6) << "its corner would hit the leaf";
+  EXPECT_EQ(fresh.way(now, kLeft, {}).share, 1.0) << "who never saw it cannot know";
+
+  seen_coming.see(as_a3(scan_of(wall_at(3), now + milliseconds(100))), {});
+  EXPECT_LT(seen_coming.way(now + milliseconds(100), kRight, {}).share, 0.6)
+      << "nothing comes back from there: it may still be there";
+  const DrawnWorld room{{{-3, -3, -3, 3}, {3, -3, 3, 3}, {-3, 3, 3, 3}, {-3, -3, 3, -3}}, {}};
+  seen_coming.see(as_a3(scan_of(room, now + milliseconds(200))), {});
+  EXPECT_EQ(seen_coming.way(now + milliseconds(200), kLeft, {}).share, 1.0) << "one sees where it was";
+}
+
+TEST(Clearance, WhatIsTooNearStaysBehindAsTheRobotDrivesOn) {
+  RecentMotion motion;
+  Clearance clearance;
+  const DrawnWorld world{{{-0.1, 0.16, 0.1, 0.16}}, {}};
+  Time now{};
+  clearance.see(scan_of(world, now), motion);  // all of it is seen, for once
+  for (int i = 0; i < 6; ++i) {
+    for (int tick = 0; tick < 5; ++tick) motion.add(now + milliseconds(20 * tick), {1.0, 0.0}, {});
+    now += milliseconds(100);
+    clearance.see(as_a3(scan_of({}, now)), motion);
+    if (i == 0) {
+      EXPECT_LT(clearance.way(now, kRight, motion).share, 0.5);
+    }
+  }
+  EXPECT_EQ(clearance.way(now, kRight, motion).share, 1.0);
+}
+
 TEST(Clearance, CarriesAnOldScanAlong) {
   const Scan scan = scan_of(wall_at(0.8));
   RecentMotion motion;

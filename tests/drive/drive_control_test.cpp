@@ -257,7 +257,7 @@ TEST(DriveConfig, EveryTableNamesItsFieldsAndDefaultsLieWithinTheLimits) {
     });
   });
   EXPECT_EQ(tables, 7);
-  EXPECT_EQ(fields, 2 + 2 + 12 + 7 + 10 + 10 + 17);
+  EXPECT_EQ(fields, 2 + 2 + 12 + 8 + 10 + 10 + 17);
 }
 
 }  // namespace

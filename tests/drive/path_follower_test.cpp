@@ -174,7 +174,7 @@ TEST(PathFollower, PassingALookOutIsEnough) {
 
 TEST(PathFollower, WaitsForAPersonAndGoesOn) {
   ToyRobot robot({}, kReal);
-  robot.world.walls = {{-1, 0.4, 6, 0.4}, {-1, -0.4, 6, -0.4}};  // no way round
+  robot.world.walls = {{-1, 0.4, 6, 0.4}, {-1, -0.4, 6, -0.4}, {6, -0.4, 6, 0.4}};  // no way round
   robot.follower.follow(route({{0, 0}, {5, 0}}));
   robot.run_on(3.0);
   robot.world.posts = {{robot.pose.x + 0.8, 0, 0.2}};
@@ -191,7 +191,7 @@ TEST(PathFollower, WaitsForAPersonAndGoesOn) {
 }
 
 TEST(PathFollower, SaysWhenItIsBlockedForGoodAndGoesOnWhenItIsNot) {
-  ToyRobot robot({{{-1, 0.4, 6, 0.4}, {-1, -0.4, 6, -0.4}}, {{2.5, 0, 0.25}}}, kReal);
+  ToyRobot robot({{{-1, 0.4, 6, 0.4}, {-1, -0.4, 6, -0.4}, {6, -0.4, 6, 0.4}}, {{2.5, 0, 0.25}}}, kReal);
   robot.follower.follow(route({{0, 0}, {5, 0}}));
   FollowOutput out = robot.run_to_end(20.0);
   EXPECT_EQ(out.state, Following::kBlocked);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "drive/obstacle_points.h"
+
+namespace dynslam {
+
+/// A lidar is blind to what is very near (RPLIDAR A3: 0.2 m from its middle, which is beside the robot's
+/// corners): a door leaf that came so near is still there though no beam says so. Keeps what was seen there
+/// last, carried along as the robot moves, in those directions from which nothing comes back, and takes it to
+/// be as near as is not seen. One thread.
+class NearMemory {
+ public:
+  /// Points nearer to the lidar than this are hidden.
+  explicit NearMemory(double blind_m) : blind_m_(blind_m) {}
+
+  /// Adds what is remembered to the points of a newer scan, which are as obstacle_points() gives them.
+  void add_to(std::vector<ObstaclePoint>& points, const Scan& scan, const BodyConfig& body,
+              const RecentMotion& motion);
+  void forget() { near_ = {}; }
+
+  static constexpr std::size_t kSectors = 120;
+
+ private:
+  struct Seen {
+    Vector2 at;  ///< from the robot at the last scan's end
+    Time seen;   ///< last
+  };
+  using Near = std::array<std::optional<Seen>, kSectors>;
+
+  double blind_m_;
+  Near near_;                ///< by direction from the lidar
+  std::optional<Time> end_;  ///< of the last scan
+};
+
+}  // namespace dynslam
