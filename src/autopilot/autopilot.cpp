@@ -7,6 +7,8 @@
 namespace dynslam {
 namespace {
 
+using Remedy = Hindrance::Remedy;
+
 template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
@@ -17,6 +19,8 @@ constexpr double kSamePlace_m = 0.6;
 constexpr Duration kSure = std::chrono::seconds(5);
 constexpr double kSeenFrom_m = 0.8;
 constexpr std::size_t kMostRemembered = 1000;
+constexpr Duration kBacksOff = std::chrono::milliseconds(2200);
+constexpr Duration kTouchesCountFor = std::chrono::minutes(1);
 
 bool is_near_any(const std::deque<Vector2>& points, const Vector2& point) {
   return std::any_of(points.begin(), points.end(),
@@ -39,6 +43,7 @@ std::string_view word_of(PlaceKind kind) {
 
 Autopilot::Autopilot(const AutopilotSetup& setup)
     : config_(setup.autopilot),
+      robot_radius_m_(setup.robot_radius_m),
       planner_(setup.planner, setup.robot_radius_m),
       navigator_(setup.navigation, planner_),
       exploration_(setup.exploration),
@@ -54,7 +59,7 @@ const AutopilotStatus& Autopilot::turn(Time now, const AutopilotInputs& in) {
   look_round_radps_ = 0.0;
   if (status_.phase == AutopilotPhase::kActive) {
     const auto hindrance = hindrance_of(in.condition);
-    if (!hindrance || bear(now, in, *hindrance)) drive(now, in);
+    if (!free_itself(now, in, hindrance) && (!hindrance || bear(now, in, *hindrance))) drive(now, in);
   }
   show(now, in);
   return status_;
@@ -79,6 +84,7 @@ void Autopilot::end(AutopilotPhase phase, const std::string& reason) {
   rests_until_.reset();
   chosen_at_.reset();
   hindered_since_.reset();
+  backs_off_until_.reset();
   seems_explored_since_.reset();
   explored_ = false;
   places_.clear();
@@ -93,18 +99,43 @@ void Autopilot::observe(Time now, const AutopilotInputs& in) {
   if (!in.world || !is_on()) return;
   map_ = in.world->map;
   if (!costmap_) costmap_.emplace(map_.cell_size_m());
-  if (in.notes && in.notes != notes_) {
-    notes_ = in.notes;
-    costmap_->set_forbidden(notes_->forbidden_map);
-  }
+  const bool is_news = in.notes && in.notes != notes_;
+  if (is_news) notes_ = in.notes;
+  if (felt_.forget(now) || is_news) keep_out();
   costmap_->update(map_);
   frontier_map_.update(map_);
   if (!in.world->pose.lost) visits_.note(now, in.world->pose.map_T_robot.translation());
 }
 
+void Autopilot::keep_out() {
+  std::vector<std::vector<Vector2>> outlines = felt_.outlines_map();
+  if (notes_) outlines.insert(outlines.end(), notes_->forbidden_map.begin(), notes_->forbidden_map.end());
+  costmap_->set_forbidden(outlines);
+}
+
+/// Backs off from what it touched, for a moment, and remembers where that was. Whatever else hinders it ends
+/// this, and so does a touch that does not end, or comes too often.
+bool Autopilot::free_itself(Time now, const AutopilotInputs& in, const std::optional<Hindrance>& hindrance) {
+  const bool touches = hindrance && hindrance->remedy == Remedy::kBackOff;
+  if (hindrance && !touches) backs_off_until_.reset();
+  if (backs_off_until_ && now < *backs_off_until_) return true;
+  const bool tried = std::exchange(backs_off_until_, std::nullopt).has_value();
+  if (!touches) return false;
+  const auto lately = felt_.count_since(now - kTouchesCountFor);
+  if (tried || !in.condition.pose || !costmap_ || lately >= static_cast<std::size_t>(config_.most_touches)) {
+    end(AutopilotPhase::kStopped, hindrance->reason);
+    return true;
+  }
+  felt_.touched(now, in.condition.pose->map_T_robot, in.came, robot_radius_m_);
+  keep_out();
+  navigator_.plan_anew();
+  backs_off_until_ = now + kBacksOff;
+  status_.reason = "it touched something, and backs off";
+  return true;
+}
+
 /// It stands, and waits for better times, but not for ever. Returns whether it drives all the same: home.
 bool Autopilot::bear(Time now, const AutopilotInputs& in, const Hindrance& hindrance) {
-  using Remedy = Hindrance::Remedy;
   if (hindrance.remedy == Remedy::kGoHome && in.notes && in.notes->home) {
     go_home();
     return true;

@@ -10,6 +10,7 @@
 
 #include "autopilot/autopilot_config.h"
 #include "autopilot/exploration.h"
+#include "autopilot/felt_obstacles.h"
 #include "autopilot/frontier_map.h"
 #include "autopilot/hindrance.h"
 #include "autopilot/navigator.h"
@@ -37,6 +38,7 @@ struct AutopilotInputs {
   FollowReport follow = {};
   Condition condition = {};
   bool is_steered = false;  ///< a person drives
+  Twist came = {};          ///< how it moved when it last moved
 };
 
 /// Decides where to drive (thesis, chapter 6): navigation brings the robot to a place that people chose,
@@ -56,6 +58,8 @@ class Autopilot {
   /// On the spot, to find out where it is; 0: no need.
   double look_round_radps() const { return look_round_radps_; }
   bool is_on() const { return status_.phase != AutopilotPhase::kOff; }
+  /// The way that it came, a little.
+  bool backs_off() const { return backs_off_until_.has_value(); }
   /// Nothing that can be reached is left to be seen for the first time.
   bool is_explored() const { return explored_; }
 
@@ -64,6 +68,8 @@ class Autopilot {
   void observe(Time now, const AutopilotInputs& in);
   void drive(Time now, const AutopilotInputs& in);
   bool bear(Time now, const AutopilotInputs& in, const Hindrance& hindrance);
+  bool free_itself(Time now, const AutopilotInputs& in, const std::optional<Hindrance>& hindrance);
+  void keep_out();
   bool set_out(Time now, const Vector2& robot_map);
   bool explore(Time now, const Vector2& robot_map);
   void find_places(Time now, const Vector2& robot_map);
@@ -78,6 +84,7 @@ class Autopilot {
   void show(Time now, const AutopilotInputs& in);
 
   AutopilotConfig config_;
+  double robot_radius_m_;
   PathPlanner planner_;
   Navigator navigator_;
   Exploration exploration_;
@@ -86,6 +93,8 @@ class Autopilot {
   std::optional<Costmap> costmap_;  ///< from the first map on
   GridSnapshot map_;
   std::shared_ptr<const MapNotes> notes_;
+  FeltObstacles felt_;
+  std::optional<Time> backs_off_until_;
 
   Order errand_ = SwitchOff{};
   bool flees_ = false;               ///< goes home to be charged

@@ -13,6 +13,7 @@ struct AutopilotConfig {
   std::string when_explored = "revisit";
   bool looks_round = true;
   double look_round_radps = 0.6;
+  int most_touches = 3;
   double patience_s = 60.0;
   double door_patience_s = 120.0;
   double choose_every_s = 1.0;
@@ -32,6 +33,11 @@ struct AutopilotConfig {
     visit(Field{"looks_round", "whether a robot that is lost turns on the spot to find itself"},
           self.looks_round);
     visit(Field{"look_round_radps", "and how fast", 0.1, 3.0}, self.look_round_radps);
+    visit(Field{"most_touches",
+                "so often within a minute it backs off from what it touched and goes on; then, or with 0 at "
+                "once, it stops and a person has to look",
+                0, 100},
+          self.most_touches);
     visit(Field{"patience_s", "lost or without a sensor for so long, it gives up", 1.0, 3600.0},
           self.patience_s);
     visit(Field{"door_patience_s",

@@ -26,6 +26,7 @@ struct Hindrance {
     kWait,       ///< it may pass
     kLookRound,  ///< turning shows where it is
     kGoHome,     ///< while it can
+    kBackOff,    ///< it touched something
     kGiveUp,     ///< a person has to look
   };
   Remedy remedy = Remedy::kWait;

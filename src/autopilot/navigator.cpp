@@ -40,6 +40,12 @@ void Navigator::give_up() {
   had_route_ = false;
 }
 
+void Navigator::plan_anew() {
+  task_.reset();
+  planned_at_.reset();
+  held_up_since_.reset();
+}
+
 Navigator::Report Navigator::turn(Time now, const Pose2& map_T_robot, const Costmap& costmap,
                                   const FollowReport& follow) {
   if (!to_) return {};

@@ -59,6 +59,8 @@ class Navigator {
   /// `stops` at the destination; otherwise coming by is enough.
   void set_out(const Destination& to, bool stops);
   void give_up();
+  /// The destination stays; the route is not driven on.
+  void plan_anew();
   Report turn(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow);
 
   /// What the follower is to do; nothing: stand.

@@ -18,6 +18,7 @@ enum class Cause : std::uint8_t {
   kTilt,
   kScan,    ///< missing, too old, frozen or blind
   kDriver,  ///< heartbeat lost, or no new command since
+  kTouch,   ///< a bumper is pressed, and the robot drives on
   kObstacle,
   kImu,  ///< was there and is silent or frozen: tilt is not watched
   kBrownout,
@@ -26,9 +27,9 @@ enum class Cause : std::uint8_t {
 
 /// One word, as it is told to others.
 constexpr const char* to_string(Cause cause) {
-  constexpr const char* kWords[] = {"none",   "clock",    "e-stop",      "stop",     "pins",
-                                    "motors", "failsafe", "motor-fault", "tilt",     "scan",
-                                    "driver", "obstacle", "imu",         "brownout", "battery"};
+  constexpr const char* kWords[] = {"none",     "clock",       "e-stop",   "stop",   "pins",   "motors",
+                                    "failsafe", "motor-fault", "tilt",     "scan",   "driver", "touch",
+                                    "obstacle", "imu",         "brownout", "battery"};
   return kWords[static_cast<int>(cause)];
 }
 

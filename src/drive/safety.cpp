@@ -20,6 +20,7 @@ Safety::Safety(const SafetyConfig& config, const BodyConfig& body, const Clearan
       motors_(config),
       scans_(config),
       imu_(config),
+      bumpers_(config),
       clearance_(body, clearance) {}
 
 Finding Safety::clock(Time now) {
@@ -57,6 +58,7 @@ Decision Safety::decide(Time now, const SafetyInputs& in) {
     clearance_.see(*seen_, motion_);
   }
   const ClearWay way = clearance_.way(now, in.twist, motion_);
+  weigh(bumpers_.update(now, in.pins, twist_, in.twist));
   weigh(obstacle(now, way, in.twist));
   weigh(imu);
   weigh(battery(in));

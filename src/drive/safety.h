@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/battery_state.h"
+#include "drive/bumper_watch.h"
 #include "drive/clearance.h"
 #include "drive/estop_latch.h"
 #include "drive/imu_watch.h"
@@ -59,6 +60,7 @@ class Safety {
   MotorWatch motors_;
   ScanWatch scans_;
   ImuWatch imu_;
+  BumperWatch bumpers_;
   Clearance clearance_;
   RecentMotion motion_;
   std::shared_ptr<const Scan> seen_;  ///< the scan that clearance_ goes by

@@ -36,10 +36,11 @@ void AutopilotStage::plan_turn() {
   in.notes = ports_.map_notes.get().value;
   if (const auto report = report_.get().value) in.follow = *report;
   in.condition = condition(in.world);
+  if (const auto came = came_.get().value) in.came = *came;
   in.is_steered = steered_.exchange(false) && orders.empty();
   const AutopilotStatus& status = autopilot_.turn(now, in);
   wanted_.put({now, status.errand, status.phase == AutopilotPhase::kActive, autopilot_.task(),
-               autopilot_.look_round_radps()});
+               autopilot_.look_round_radps(), autopilot_.backs_off()});
   ports_.autopilot.put(status);
   plan_due_ = std::max(plan_due_ + kPlanEvery, now);
 }
@@ -72,7 +73,11 @@ void AutopilotStage::pilot_turn() {
     sent_.reset();
     return;
   }
-  follow(wanted.value->task);
+  follow(wanted.value->backs_off ? std::nullopt : wanted.value->task);
+  if (!wanted.value->backs_off) {
+    back_off_.note(applied_);
+    came_.put(back_off_.came());
+  }
   const Twist twist = wanted_twist(now, *wanted.value);
   command(now, twist, false);
 }
@@ -127,7 +132,9 @@ Twist AutopilotStage::wanted_twist(Time now, const Wanted& wanted) {
   const bool is_stopped = !drive || drive->verdict.motion >= Motion::kStop;
   const bool has_pose = world_ && !world_->pose.lost && now - world_->pose.stamp < kPoseHolds;
   Twist twist;
-  if (wanted.look_round_radps != 0.0) {
+  if (wanted.backs_off) {
+    twist = back_off_.twist();
+  } else if (wanted.look_round_radps != 0.0) {
     twist = {0.0, wanted.look_round_radps};
   } else if (wanted.task && has_pose && !is_stopped) {
     const Pose2 map_T_robot = world_->pose.map_T_robot * motion_.between(world_->pose.stamp, now);

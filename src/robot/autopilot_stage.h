@@ -9,6 +9,7 @@
 
 #include "autopilot/autopilot.h"
 #include "base/imu_sample.h"
+#include "drive/back_off.h"
 #include "drive/drive_config.h"
 #include "drive/path_follower.h"
 #include "drive/recent_motion.h"
@@ -44,6 +45,7 @@ class AutopilotStage {
     bool drives = false;
     std::optional<DriveTask> task = {};
     double look_round_radps = 0.0;
+    bool backs_off = false;
   };
   Condition condition(const std::shared_ptr<const WorldState>& world) const;
   bool is_steered_by_others() const;
@@ -63,11 +65,13 @@ class AutopilotStage {
 
   Latest<Wanted> wanted_;
   Latest<FollowReport> report_;
+  Latest<Twist> came_;
   std::atomic<bool> steered_{false};
 
   // Of the commanding turn.
   PathFollower follower_;
   SpeedControl speed_;
+  BackOff back_off_;
   RecentMotion motion_;
   Time pilot_due_;
   std::uint64_t scan_version_ = 0;

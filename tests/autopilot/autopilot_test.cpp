@@ -42,6 +42,7 @@ struct Pilot {
   std::shared_ptr<MapNotes> notes;
   FollowReport follow;
   Condition condition;
+  Twist came;
   bool steered = false, lost = false, looks = false, glides = true;
   double way_m = 0.0;
 
@@ -56,7 +57,8 @@ struct Pilot {
     auto world = std::make_shared<WorldState>(building.world(now, at));
     world->pose.lost = lost;
     condition.pose = world->pose;
-    const AutopilotStatus status = autopilot.turn(now, {orders, world, notes, follow, condition, steered});
+    const AutopilotStatus status =
+        autopilot.turn(now, {orders, world, notes, follow, condition, steered, came});
     orders.clear();
     glide();
     return status;
@@ -197,13 +199,76 @@ TEST(Autopilot, AStopEndsItAndClearingTheStopDoesNotSetItOff) {
   EXPECT_EQ(pilot.turn(GoThere{{pilot.building.find('g')}}).phase, AutopilotPhase::kActive);
 }
 
-TEST(Autopilot, ATouchEndsIt) {
-  KnownFlat pilot;
+TEST(Autopilot, ATouchEndsItWhereItMayNotBackOff) {
+  AutopilotSetup setup;
+  setup.autopilot.most_touches = 0;
+  KnownFlat pilot(setup);
   pilot.turn(Explore{});
   pilot.condition.touches = true;
   const AutopilotStatus status = pilot.turn();
   EXPECT_EQ(status.phase, AutopilotPhase::kStopped);
   EXPECT_EQ(status.reason, "it touched something");
+}
+
+/// A robot that ran into something at its start, driving ahead, and backs off for as long as it is told to.
+struct Touching : KnownFlat {
+  Touching() {
+    came = {0.3, 0.0};
+    turn(GoThere{{building.find('g')}});
+    condition.touches = true;
+  }
+  double back_off(bool comes_free) {
+    const Time begin = now;
+    while (turn().phase == AutopilotPhase::kActive && autopilot.backs_off()) {
+      EXPECT_FALSE(autopilot.task()) << "no route is driven meanwhile";
+      condition.touches = condition.touches && !comes_free;
+      if (now - begin > std::chrono::seconds(10)) return 10.0;
+    }
+    return to_seconds(now - begin);
+  }
+};
+
+TEST(Autopilot, BacksOffFromATouchAndDrivesRoundWhatItFelt) {
+  Touching pilot;
+  const Vector2 felt = pilot.at * Vector2(0.26, 0.0);
+  EXPECT_NEAR(pilot.back_off(true), 2.2, 0.5);
+  double nearest_m = 9.0;
+  AutopilotStatus status = pilot.turn();
+  for (int i = 0; i < 300 && status.phase == AutopilotPhase::kActive; ++i) {
+    if (pilot.way_m > 0.3) nearest_m = std::min(nearest_m, pilot.away_m(felt));
+    status = pilot.turn();
+  }
+  EXPECT_EQ(status.reason, "arrived");
+  EXPECT_GT(nearest_m, 0.3);
+}
+
+TEST(Autopilot, ATouchThatDoesNotEndEndsIt) {
+  Touching pilot;
+  EXPECT_LT(pilot.back_off(false), 3.0);
+  const AutopilotStatus status = pilot.turn();
+  EXPECT_EQ(status.phase, AutopilotPhase::kStopped);
+  EXPECT_EQ(status.reason, "it touched something");
+}
+
+TEST(Autopilot, ToTouchTooOftenEndsIt) {
+  Touching pilot;
+  for (int i = 0; i < 3; ++i) {
+    pilot.condition.touches = true;
+    pilot.back_off(true);
+    EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kActive) << i;
+  }
+  pilot.condition.touches = true;
+  EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kStopped);
+}
+
+TEST(Autopilot, AStopEndsBackingOff) {
+  Touching pilot;
+  pilot.turn();
+  ASSERT_TRUE(pilot.autopilot.backs_off());
+  pilot.condition.verdict = {Motion::kEStop, "stopped by Ann"};
+  pilot.condition.cause = Cause::kStopAsked;
+  EXPECT_EQ(pilot.turn().reason, "stopped by Ann");
+  EXPECT_FALSE(pilot.autopilot.backs_off());
 }
 
 TEST(Autopilot, ALidarThatIsGoneIsWaitedForButNotForEver) {

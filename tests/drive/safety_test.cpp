@@ -192,6 +192,15 @@ void into_wall_behind(SafetyInputs& in, int ms) {
   in.scan = wall_scan(-0.2, ms);
   in.twist = {-0.5, 0};
 }
+void bumper_pressed(SafetyInputs& in, int) { in.pins->value.bumper_pressed = true; }
+void bumper_pressed_and_back(SafetyInputs& in, int ms) {
+  bumper_pressed(in, ms);
+  if (ms > 50) in.twist = {-0.1, 0.0};
+}
+void bumper_pressed_and_turned(SafetyInputs& in, int ms) {
+  bumper_pressed(in, ms);
+  if (ms > 50) in.twist = {0.0, 0.5};
+}
 void no_room_to_turn(SafetyInputs& in, int ms) {
   in.scan = wall_scan(0.142, ms);
   in.twist = {0, 1};
@@ -275,6 +284,9 @@ const Row kRows[] = {
     {"wall touching", wall_touching, 0, kHold, Cause::kObstacle, "obstacle 0.06 m ahead"},
     {"wall behind", wall_behind, 0, kGo, Cause::kNone, ""},
     {"into wall behind", into_wall_behind, 0, kHold, Cause::kObstacle, "obstacle 0.06 m behind"},
+    {"bumper", bumper_pressed, 0, kHold, Cause::kTouch, "touching something: drive the other way"},
+    {"bumper, away", bumper_pressed_and_back, 100, kGo, Cause::kNone, ""},
+    {"bumper, on the spot", bumper_pressed_and_turned, 100, kHold, Cause::kTouch, "touching"},
     {"no room", no_room_to_turn, 0, kHold, Cause::kObstacle, "m beside"},
 };
 

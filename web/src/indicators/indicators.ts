@@ -66,7 +66,7 @@ function wheel({ wheel, mayDrive }: Seen): Indicator {
 }
 
 /** Why the robot does not move, where no other indicator or banner says so. */
-const SHOWN_ELSEWHERE = ["none", "e-stop", "stop", "obstacle", "tilt"];
+const SHOWN_ELSEWHERE = ["none", "e-stop", "stop", "touch", "obstacle", "tilt"];
 
 function standing({ verdict }: State, { wheel }: Seen): Indicator {
   const make = (level: Level): Indicator => ({ id: "standing", icon: "lost", level, text: words.standing, about: verdict?.reason ?? "" });

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "autopilot/felt_obstacles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dynslam {
+namespace {
+
+constexpr Duration kRemembers = std::chrono::minutes(30);
+constexpr std::size_t kMost = 64;
+constexpr double kRadius_m = 0.12;
+constexpr int kCorners = 8;
+
+std::vector<Vector2> outline_around(const Vector2& middle) {
+  std::vector<Vector2> outline;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = kTwoPi * i / kCorners;
+    outline.push_back(middle + kRadius_m * Vector2(std::cos(angle), std::sin(angle)));
+  }
+  return outline;
+}
+
+}  // namespace
+
+void FeltObstacles::touched(Time now, const Pose2& map_T_robot, const Twist& driven, double robot_radius_m) {
+  Felt felt{now, {}};
+  if (driven.v_mps != 0.0) {
+    const double ahead_m = std::copysign(robot_radius_m + 0.5 * kRadius_m, driven.v_mps);
+    felt.outline_map = outline_around(map_T_robot * Vector2(ahead_m, 0.0));
+  }
+  felt_.push_back(std::move(felt));
+  if (felt_.size() > kMost) felt_.pop_front();
+}
+
+bool FeltObstacles::forget(Time now) {
+  const auto is_over = [&](const Felt& f) { return now < f.time || now - f.time > kRemembers; };
+  const std::size_t before = felt_.size();
+  felt_.erase(std::remove_if(felt_.begin(), felt_.end(), is_over), felt_.end());
+  return felt_.size() != before;
+}
+
+std::size_t FeltObstacles::count_since(Time since) const {
+  return static_cast<std::size_t>(
+      std::count_if(felt_.begin(), felt_.end(), [&](const Felt& f) { return f.time >= since; }));
+}
+
+std::vector<std::vector<Vector2>> FeltObstacles::outlines_map() const {
+  std::vector<std::vector<Vector2>> outlines;
+  for (const Felt& f : felt_)
+    if (!f.outline_map.empty()) outlines.push_back(f.outline_map);
+  return outlines;
+}
+
+}  // namespace dynslam
