@@ -19,6 +19,7 @@ constexpr double kSamePlace_m = 0.6;
 constexpr Duration kSure = std::chrono::seconds(5);
 constexpr double kSeenFrom_m = 0.8;
 constexpr std::size_t kMostRemembered = 1000;
+constexpr double kPatienceAmongMany_s = 4.0;
 constexpr Duration kBacksOff = std::chrono::milliseconds(2200);
 constexpr Duration kTouchesCountFor = std::chrono::minutes(1);
 
@@ -166,6 +167,7 @@ void Autopilot::drive(Time now, const AutopilotInputs& in) {
   const Pose2& map_T_robot = in.world->pose.map_T_robot;
   const bool explores = std::holds_alternative<Explore>(errand_);
   if (explores && place_ && is_seen(*place_)) {
+    exploration_.vanished(now, *place_);
     place_.reset();
     navigator_.give_up();
   }
@@ -201,8 +203,8 @@ bool Autopilot::set_out(Time now, const Vector2& robot_map) {
                     errand_);
 }
 
-void Autopilot::set_out_to(const Destination& to, bool stops) {
-  navigator_.set_out(to, stops);
+void Autopilot::set_out_to(const Destination& to, bool stops, std::optional<double> patience_s) {
+  navigator_.set_out(to, stops, patience_s);
   status_.goal = to;
   status_.nearest_map.reset();
 }
@@ -218,18 +220,22 @@ bool Autopilot::explore(Time now, const Vector2& robot_map) {
     finish_exploring();
     return false;
   }
+  // Who does not go on for ever stands still to make sure, unless a door has to be looked at.
+  if (config_.when_explored != "revisit" && !waits_for_door_)
+    std::erase_if(places_, [](const Place& p) { return p.kind != PlaceKind::kFrontier; });
   if (places_.empty()) {
     place_.reset();
     navigator_.give_up();
-    status_.reason =
-        explored_ ? "everything within reach is mapped" : "waiting until there is a way to what is unknown";
+    status_.reason = explored_ ? "everything within reach is mapped" : "looking whether all is mapped";
     rests_until_ = now + choose_every;
     return false;
   }
   const Place& best = places_.front();
   if (place_ && (place_->stand_map - best.stand_map).norm() < kSamePlace_m) return true;
   place_ = best;
-  set_out_to({best.stand_map}, false);
+  // There is enough to do elsewhere meanwhile.
+  set_out_to({best.stand_map}, false,
+             places_.size() > 1 ? std::optional(kPatienceAmongMany_s) : std::nullopt);
   return true;
 }
 

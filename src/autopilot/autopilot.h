@@ -75,7 +75,7 @@ class Autopilot {
   void find_places(Time now, const Vector2& robot_map);
   void judge_explored(Time now);
   void finish_exploring();
-  void set_out_to(const Destination& to, bool stops);
+  void set_out_to(const Destination& to, bool stops, std::optional<double> patience_s = std::nullopt);
   void arrived(Time now, const std::string& remark);
   void failed(Time now, const Navigator::Report& report);
   void go_home();

@@ -72,17 +72,29 @@ std::vector<Exploration::Ranked> Exploration::frontier_places(Time now, std::spa
                                                               const Reachability& reach) {
   std::vector<Ranked> found;
   for (const Frontier& f : frontiers) {
-    if (!f.middle_map.allFinite() || is_left_alone(now, f)) continue;
+    if (!f.middle_map.allFinite() || !was_there_before(f) || is_left_alone(now, f)) continue;
     const std::optional<Vector2> stand_map = reach.nearest(f.middle_map, config_.stand_within_m);
     const std::optional<double> route_m = stand_map ? route_to(*stand_map, reach) : std::nullopt;
     if (!route_m) {
       ++left_out_.out_of_reach;
       continue;
     }
-    found.push_back({*route_m - config_.gain_weight * f.extent_m,
+    const TriedPlaces::Tried* tried = frontiers_.find(f.middle_map);
+    const double retry_m = tried ? config_.retry_cost_m * tried->tries : 0.0;
+    found.push_back({*route_m - config_.gain_weight * f.extent_m + retry_m,
                      {PlaceKind::kFrontier, f.middle_map, *stand_map, *route_m, f.extent_m}});
   }
+  seen_before_.clear();
+  for (const Frontier& f : frontiers) seen_before_.push_back(f.middle_map);
   return found;
+}
+
+/// All are new when there were none.
+bool Exploration::was_there_before(const Frontier& frontier) const {
+  const double near_m = config_.same_place_m + 0.5 * frontier.extent_m;
+  return seen_before_.empty() || std::any_of(seen_before_.begin(), seen_before_.end(), [&](const Vector2& p) {
+           return (p - frontier.middle_map).norm() <= near_m;
+         });
 }
 
 bool Exploration::is_left_alone(Time now, const Frontier& frontier) {
@@ -94,7 +106,7 @@ bool Exploration::is_left_alone(Time now, const Frontier& frontier) {
   }
   if (tried->until <= now) return false;
   ++left_out_.waiting;
-  left_out_.next = std::min(left_out_.next.value_or(tried->until), tried->until);
+  if (tried->may_open) left_out_.next = std::min(left_out_.next.value_or(tried->until), tried->until);
   return true;
 }
 
@@ -172,8 +184,20 @@ void Exploration::failed(Time now, const Place& place) {
   }
 }
 
+void Exploration::tried_in_vain(Time now, const Place& place) {
+  chosen_.reset();
+  if (place.point_map.allFinite())
+    frontiers_.add(now, place.point_map, from_seconds(config_.retry_after_s), false);
+}
+
+/// A frontier that comes back where it was is one of those that flicker at the edge of what can be seen.
+void Exploration::vanished(Time now, const Place& place) {
+  if (place.kind == PlaceKind::kFrontier) tried_in_vain(now, place);
+}
+
 void Exploration::reached(Time now, const Place& place) {
-  if (place.kind != PlaceKind::kOld) return failed(now, place);
+  if (place.kind == PlaceKind::kFrontier) return tried_in_vain(now, place);
+  if (place.kind == PlaceKind::kUnvisited) return failed(now, place);
   chosen_.reset();
   if (place.point_map.allFinite()) cells_.rest(now, place.point_map, from_seconds(config_.retry_after_s));
 }

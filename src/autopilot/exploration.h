@@ -40,18 +40,20 @@ struct LeftOut {
   std::size_t waiting = 0;       ///< tried in vain, to be tried again
   std::size_t given_up = 0;      ///< tried in vain too often
   std::size_t out_of_reach = 0;  ///< no route to where it would be seen
-  std::optional<Time> next;      ///< when the first of those that wait may be tried again
+  std::optional<Time> next;      ///< when the first of those that had no route may be tried again
 };
 
 /// Chooses where to go next to learn the most (thesis 6.6): to frontiers first, then to history cells where
 /// the robot never was, then to those where it was longest ago. What was tried in vain is left alone for a
-/// while; frontiers that stay after `most_tries` are given up, so that what cannot be seen does not attract
-/// for ever. Pure; one thread.
+/// while, then comes after what is new; frontiers that stay after `most_tries` are given up, so that what
+/// cannot be seen does not attract for ever. Pure; one thread.
 class Exploration {
  public:
   explicit Exploration(const ExplorationConfig& config = {})
       : config_(config), frontiers_(config.same_place_m), cells_(config.same_place_m) {}
 
+  /// To be called once a second or so: a frontier counts when it was there the last time too, for at the edge
+  /// of what can be seen they come and go.
   /// Places of the most worthy kind of which there are any, best first; none for a robot that is nowhere.
   /// Frontiers: the way, less what is to be seen there; the one that was first the last time stays first
   /// unless another is clearly better. Cells never visited: the nearest few. Old ones: the oldest few; when
@@ -64,6 +66,9 @@ class Exploration {
   void failed(Time now, const Place& place);
   /// The robot stands there. What is still a place of interest after that was tried in vain.
   void reached(Time now, const Place& place);
+
+  /// It was seen from afar, and is a place of interest no more.
+  void vanished(Time now, const Place& place);
 
   /// As of the last call of places(). Exploring is over when there is no place and `next` is none.
   const LeftOut& left_out() const { return left_out_; }
@@ -80,11 +85,14 @@ class Exploration {
                                        const GridSnapshot& map, const Reachability& reach) const;
   std::vector<Ranked> old_places(Time now, const VisitMap& visits, const Reachability& reach,
                                  bool restless) const;
+  void tried_in_vain(Time now, const Place& place);
   bool is_left_alone(Time now, const Frontier& frontier);
+  bool was_there_before(const Frontier& frontier) const;
   void stay_with_chosen(std::vector<Ranked>& found) const;
 
   ExplorationConfig config_;
   TriedPlaces frontiers_, cells_;
+  std::vector<Vector2> seen_before_;  ///< the frontiers of the last time
   std::optional<Place> chosen_;
   LeftOut left_out_;
 };

@@ -18,6 +18,7 @@ struct ExplorationConfig {
   double keep_m = 1.5;
   double same_place_m = 0.5;
   double retry_after_s = 60.0;
+  double retry_cost_m = 8.0;
   int most_tries = 3;
   double revisit_after_s = 1800.0;
 
@@ -47,6 +48,8 @@ struct ExplorationConfig {
     visit(Field{"same_place_m", "what was tried this near counts as tried", 0.05, 5.0}, self.same_place_m);
     visit(Field{"retry_after_s", "a place tried in vain is left alone for so long", 0.0, 86400.0},
           self.retry_after_s);
+    visit(Field{"retry_cost_m", "and after that counts as so much farther away for each time", 0.0, 1000.0},
+          self.retry_cost_m);
     visit(Field{"most_tries", "after so many it is given up", 1, 1000}, self.most_tries);
     visit(Field{"revisit_after_s", "where the robot was so long ago, it goes again", 0.0, 1e6},
           self.revisit_after_s);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "autopilot/navigator.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace dynslam {
@@ -24,11 +25,12 @@ bool is_hopeless(const Costmap& costmap, const Vector2& goal_map) {
 
 }  // namespace
 
-void Navigator::set_out(const Destination& to, bool stops) {
+void Navigator::set_out(const Destination& to, bool stops, std::optional<double> patience_s) {
   give_up();
   ++errands_;
   to_ = to;
   stops_ = stops;
+  patience_s_ = patience_s.value_or(config_.patience_s);
 }
 
 void Navigator::give_up() {
@@ -98,7 +100,7 @@ bool Navigator::is_better(const Plan& plan, const Costmap& costmap, const Follow
 
 Navigator::Report Navigator::wait(Time now, const std::string& reason) {
   if (!held_up_since_ || now < *held_up_since_) held_up_since_ = now;
-  const double patience_s = had_route_ ? config_.patience_s : kFirstPatience_s;
+  const double patience_s = had_route_ ? patience_s_ : std::min(patience_s_, kFirstPatience_s);
   if (now - *held_up_since_ > from_seconds(patience_s)) return end(State::kNoRoute, reason);
   return {State::kWaiting, reason};
 }

@@ -56,8 +56,8 @@ class Navigator {
 
   Navigator(const NavigationConfig& config, PathPlanner& planner) : config_(config), planner_(planner) {}
 
-  /// `stops` at the destination; otherwise coming by is enough.
-  void set_out(const Destination& to, bool stops);
+  /// `stops` at the destination; otherwise coming by is enough. A way that is blocked is waited for so long.
+  void set_out(const Destination& to, bool stops, std::optional<double> patience_s = std::nullopt);
   void give_up();
   /// The destination stays; the route is not driven on.
   void plan_anew();
@@ -80,6 +80,7 @@ class Navigator {
   std::uint64_t errands_ = 0;
   std::optional<Destination> to_;
   bool stops_ = true;
+  double patience_s_ = 0.0;
   bool had_route_ = false;
   std::optional<Plan> last_plan_;
   std::optional<Time> planned_at_;

@@ -23,13 +23,14 @@ TriedPlaces::Tried& TriedPlaces::entry(const Vector2& point_map) {
     places_.erase(std::min_element(places_.begin(), places_.end(),
                                    [](const Tried& a, const Tried& b) { return a.last < b.last; }));
   }
-  return places_.emplace_back(Tried{point_map, 0, Time(), Time()});
+  return places_.emplace_back(Tried{point_map, 0, Time(), Time(), false});
 }
 
-int TriedPlaces::add(Time now, const Vector2& point_map, Duration leave_alone) {
+int TriedPlaces::add(Time now, const Vector2& point_map, Duration leave_alone, bool may_open) {
   Tried& place = entry(point_map);
   place.last = now;
   place.until = now + leave_alone;
+  place.may_open = may_open;
   return ++place.tries;
 }
 

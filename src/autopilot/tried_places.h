@@ -18,7 +18,8 @@ class TriedPlaces {
     Vector2 point_map;
     int tries = 0;
     Time last;
-    Time until;  ///< left alone
+    Time until;             ///< left alone
+    bool may_open = false;  ///< there was no way to it; otherwise it was looked at and did not change
   };
 
   explicit TriedPlaces(double within_m, std::size_t most_places = 256)
@@ -27,7 +28,7 @@ class TriedPlaces {
   /// What is known of the place nearest to a point; null: nothing.
   const Tried* find(const Vector2& point_map) const;
   /// Another try, or the first one. Returns how many there were.
-  int add(Time now, const Vector2& point_map, Duration leave_alone);
+  int add(Time now, const Vector2& point_map, Duration leave_alone, bool may_open = true);
   /// Leaves it alone for a time, and then all tries are to be had again.
   void rest(Time now, const Vector2& point_map, Duration leave_alone);
 

@@ -251,6 +251,43 @@ TEST(Exploration, WaitsForFrontiersThatAreLeftAloneAndGoesElsewhereMeanwhile) {
   EXPECT_EQ(e.places()[0].point_map, places[0].point_map);
 }
 
+TEST(Exploration, NobodyWaitsForWhatWasLookedAtInVain) {
+  Explorer e(kTwoDoors);
+  for (const Place& door : e.places()) e.exploration.reached(e.now, door);
+  e.places();
+  EXPECT_EQ(e.exploration.left_out().waiting, 2U);
+  EXPECT_EQ(e.exploration.left_out().next, std::nullopt);
+}
+
+TEST(Exploration, AFrontierCountsWhenItWasThereTheLastTimeToo) {
+  Explorer e(kTwoDoors);
+  const std::vector<Frontier> both = e.flat.frontiers;
+  ASSERT_EQ(both.size(), 2U);
+  e.flat.frontiers = {both[0]};
+  EXPECT_EQ(e.places().size(), 1U) << "all count that were there first";
+  e.flat.frontiers = both;
+  EXPECT_EQ(e.places().size(), 1U);
+  EXPECT_EQ(e.places().size(), 2U);
+  for (int i = 0; i < 10; ++i) {
+    e.flat.frontiers = i % 2 == 0 ? std::vector{both[0]} : both;
+    EXPECT_EQ(e.places().size(), 1U) << "it flickers: " << i;
+  }
+}
+
+TEST(Exploration, WhatCameBackComesAfterWhatIsNew) {
+  Explorer e(kTwoDoors);
+  const auto places = e.places();
+  ASSERT_EQ(places.size(), 2U);
+  e.exploration.vanished(e.now, places[0]);
+  EXPECT_EQ(e.places().size(), 1U) << "left alone";
+  e.now += seconds(60);
+  const auto later = e.places();
+  ASSERT_EQ(later.size(), 2U);
+  EXPECT_EQ(later[0].point_map, places[1].point_map) << "though it is farther away";
+  e.exploration.vanished(e.now, {PlaceKind::kOld, places[1].point_map, places[1].point_map});
+  EXPECT_EQ(e.places().size(), 2U) << "of frontiers only";
+}
+
 TEST(Exploration, LeavesOutWhatThereIsNoRouteTo) {
   Explorer e({"####################",  //
               "#..................#",  //
