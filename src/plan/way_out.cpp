@@ -13,6 +13,7 @@ namespace {
 
 /// Of a start that shows as occupied: the robot is there, so nothing else is.
 constexpr double kOwnBody_m = 0.1;
+constexpr double kReach_m = 1.3, kReachInForbidden_m = 8.0;
 /// How many times as much a step costs where there is no room at all.
 constexpr int kTightness = 5;
 
@@ -23,7 +24,8 @@ class WayOut {
       : map_(map),
         ground_(ground),
         start_(start),
-        radius_(static_cast<int>(kWayOut_m / map.cell_size_m())),
+        radius_(static_cast<int>(way_out_reach_m(map, cell_centre(start, map.cell_size_m())) /
+                                 map.cell_size_m())),
         own_body_(map.is_occupied(start) ? static_cast<int>(kOwnBody_m / map.cell_size_m()) : 0) {}
 
   /// The cells from the start to the end.
@@ -102,6 +104,10 @@ bool goes_straight(CellIndex a, CellIndex b, CellIndex c) {
 }
 
 }  // namespace
+
+double way_out_reach_m(const Costmap& map, const Vector2& start_map) {
+  return map.is_forbidden(cell_at(start_map, map.cell_size_m())) ? kReachInForbidden_m : kReach_m;
+}
 
 std::optional<std::vector<Vector2>> way_out(const Costmap& map, const Ground& ground,
                                             const Vector2& start_map) {

@@ -8,13 +8,14 @@
 
 namespace dynslam {
 
-/// How far it may be from where the robot stands to where it has room.
-inline constexpr double kWayOut_m = 1.3;
+/// How far it may be from where the robot stands to where it has room: farther in a no-go area, which people
+/// may draw around it.
+double way_out_reach_m(const Costmap& map, const Vector2& start_map);
 
 /// From the start to the nearest place from which the search can go on: only the start where it has room;
 /// else points along cells, rather where there is more room, never through what the map has occupied (but out
 /// of it, where the start itself shows as occupied), across no-go areas and unknown ground if need be.
-/// Nothing when there is no such place within kWayOut_m. REQUIRES: the map's box holds the start.
+/// Nothing when there is no such place within way_out_reach_m(). REQUIRES: the map's box holds the start.
 std::optional<std::vector<Vector2>> way_out(const Costmap& map, const Ground& ground,
                                             const Vector2& start_map);
 

@@ -180,6 +180,13 @@ TEST(PathPlanner, LeavesANoGoAreaThatItStandsIn) {
   ASSERT_EQ(plan.outcome, PlanOutcome::kFound) << plan.reason;
   EXPECT_NEAR(plan.length_m, 3.2, 0.05);
   EXPECT_FALSE(PathPlanner({}, kRadius_m).first_blocked_leg(map, plan.route_map)) << "the way out is none";
+
+  map.set_forbidden(std::vector<std::vector<Vector2>>{{{-1, -1}, {5, -1}, {5, 5}, {-1, 5}}});
+  map.update(floor.grid.snapshot());
+  const Plan far = plan_on(map, {2, 2}, {5.5, 2});
+  ASSERT_EQ(far.outcome, PlanOutcome::kFound) << far.reason;
+  EXPECT_NEAR(far.length_m, 3.5, 0.05);
+  EXPECT_FALSE(PathPlanner({}, kRadius_m).first_blocked_leg(map, far.route_map)) << "however far it is";
 }
 
 TEST(PathPlanner, FindsItsWayOutOfATightPlaceButThroughNoWall) {
