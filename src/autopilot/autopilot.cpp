@@ -2,6 +2,8 @@
 #include "autopilot/autopilot.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace dynslam {
@@ -20,6 +22,9 @@ constexpr Duration kSure = std::chrono::seconds(5);
 constexpr double kSeenFrom_m = 0.8;
 constexpr std::size_t kMostRemembered = 1000;
 constexpr double kPatienceAmongMany_s = 4.0;
+/// Routes are looked for within so far of the robot first; a map with longer ones than the second is looked
+/// at whole.
+constexpr double kLooksFirst_m = 12.0, kLooksAll_m = 100.0;
 constexpr Duration kBacksOff = std::chrono::milliseconds(2200);
 constexpr Duration kTouchesCountFor = std::chrono::minutes(1);
 
@@ -240,10 +245,18 @@ bool Autopilot::explore(Time now, const Vector2& robot_map) {
 }
 
 void Autopilot::find_places(Time now, const Vector2& robot_map) {
-  const RouteLengths& lengths = planner_.reach(*costmap_, robot_map);
+  double looked_m = kLooksFirst_m;
+  const RouteLengths* lengths = &planner_.reach(*costmap_, robot_map, looked_m);
+  const auto look_farther = [&] {
+    if (std::isinf(looked_m)) return false;
+    looked_m = looked_m < kLooksAll_m ? 4.0 * looked_m : std::numeric_limits<double>::infinity();
+    lengths = &planner_.reach(*costmap_, robot_map, looked_m);
+    return true;
+  };
   const Reachability reach{
-      [&](const Vector2& point) { return lengths.length_m(point); },
-      [&](const Vector2& point, double within_m) { return lengths.nearest_reached(point, within_m); }};
+      [&](const Vector2& point) { return lengths->length_m(point); },
+      [&](const Vector2& point, double within_m) { return lengths->nearest_reached(point, within_m); },
+      [&] { return looked_m; }, look_farther};
   const std::vector<Frontier> frontiers = frontier_map_.frontiers();
   // A door is seen to be open again by who passes by.
   places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach, waits_for_door_);
@@ -255,7 +268,7 @@ void Autopilot::find_places(Time now, const Vector2& robot_map) {
   const auto has_lost_its_way = [&](const Frontier& f) {
     return !reach.nearest(f.middle_map, kSeenFrom_m) && is_near_any(once_reachable_, f.middle_map);
   };
-  waits_for_door_ = std::any_of(frontiers.begin(), frontiers.end(), has_lost_its_way);
+  waits_for_door_ = std::isinf(looked_m) && std::any_of(frontiers.begin(), frontiers.end(), has_lost_its_way);
   judge_explored(now);
 }
 

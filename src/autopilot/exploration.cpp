@@ -68,8 +68,23 @@ std::vector<Place> Exploration::places(Time now, const Vector2& robot_map,
   return places;
 }
 
+/// Looks only as far as needed: farther away none can be better than the best.
 std::vector<Exploration::Ranked> Exploration::frontier_places(Time now, std::span<const Frontier> frontiers,
                                                               const Reachability& reach) {
+  const double most_gain_m = config_.gain_weight * config_.most_extent_m + config_.keep_m;
+  std::vector<Ranked> found;
+  const auto is_sure = [&](const Ranked& r) { return r.rank + most_gain_m <= reach.looked_m(); };
+  do {
+    found = frontiers_reached(now, frontiers, reach);
+  } while (std::none_of(found.begin(), found.end(), is_sure) && reach.look_farther());
+  seen_before_.clear();
+  for (const Frontier& f : frontiers) seen_before_.push_back(f.middle_map);
+  return found;
+}
+
+std::vector<Exploration::Ranked> Exploration::frontiers_reached(Time now, std::span<const Frontier> frontiers,
+                                                                const Reachability& reach) {
+  left_out_ = {};
   std::vector<Ranked> found;
   for (const Frontier& f : frontiers) {
     if (!f.middle_map.allFinite() || !was_there_before(f) || is_left_alone(now, f)) continue;
@@ -84,8 +99,6 @@ std::vector<Exploration::Ranked> Exploration::frontier_places(Time now, std::spa
     found.push_back({*route_m - config_.gain_weight * f.extent_m + retry_m,
                      {PlaceKind::kFrontier, f.middle_map, *stand_map, *route_m, f.extent_m}});
   }
-  seen_before_.clear();
-  for (const Frontier& f : frontiers) seen_before_.push_back(f.middle_map);
   return found;
 }
 

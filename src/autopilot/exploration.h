@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -33,6 +34,10 @@ struct Reachability {
   std::function<std::optional<double>(const Vector2& point_map)> route_m;
   /// Of the points that there is a route to the nearest to a point; none: none is so near.
   std::function<std::optional<Vector2>(const Vector2& point_map, double within_m)> nearest;
+  /// Only routes up to this length were looked for.
+  std::function<double()> looked_m = [] { return std::numeric_limits<double>::infinity(); };
+  /// Looks for longer ones; false: that was everything.
+  std::function<bool()> look_farther = [] { return false; };
 };
 
 /// Frontiers that the last choice left out.
@@ -81,6 +86,8 @@ class Exploration {
   };
   std::vector<Ranked> frontier_places(Time now, std::span<const Frontier> frontiers,
                                       const Reachability& reach);
+  std::vector<Ranked> frontiers_reached(Time now, std::span<const Frontier> frontiers,
+                                        const Reachability& reach);
   std::vector<Ranked> unvisited_places(Time now, const Vector2& robot_map, const VisitMap& visits,
                                        const GridSnapshot& map, const Reachability& reach) const;
   std::vector<Ranked> old_places(Time now, const VisitMap& visits, const Reachability& reach,

@@ -288,6 +288,33 @@ TEST(Exploration, WhatCameBackComesAfterWhatIsNew) {
   EXPECT_EQ(e.places().size(), 2U) << "of frontiers only";
 }
 
+TEST(Exploration, LooksOnlyAsFarAsTheBestCouldBe) {
+  for (const auto& [first_m, looks] : {std::pair{0.5, 2}, std::pair{3.0, 2}, std::pair{7.0, 1}}) {
+    Explorer e(kTwoDoors);
+    double looked_m = first_m;
+    int looked = 1;
+    const Reachability all = e.flat.reach();
+    const auto within = [&](std::optional<double> m) { return m && *m <= looked_m ? m : std::nullopt; };
+    const Reachability reach{[&](const Vector2& p) { return within(all.route_m(p)); },
+                             [&](const Vector2& p, double within_m) -> std::optional<Vector2> {
+                               const auto at = all.nearest(p, within_m);
+                               return at && within(all.route_m(*at)) ? at : std::nullopt;
+                             },
+                             [&] { return looked_m; },
+                             [&] {
+                               if (std::isinf(looked_m)) return false;
+                               looked_m = std::numeric_limits<double>::infinity();
+                               ++looked;
+                               return true;
+                             }};
+    const auto places =
+        e.exploration.places(e.now, e.flat.robot, e.flat.frontiers, e.visits, e.flat.map, reach);
+    EXPECT_EQ(looked, looks) << first_m;
+    ASSERT_FALSE(places.empty());
+    EXPECT_LT(places[0].point_map.x(), 0.2);
+  }
+}
+
 TEST(Exploration, LeavesOutWhatThereIsNoRouteTo) {
   Explorer e({"####################",  //
               "#..................#",  //
