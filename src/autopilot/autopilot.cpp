@@ -2,8 +2,6 @@
 #include "autopilot/autopilot.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 namespace dynslam {
@@ -16,22 +14,9 @@ struct Overloaded : Cases... {
   using Cases::operator()...;
 };
 
-/// Two places so near to each other are one.
-constexpr double kSamePlace_m = 0.6;
-constexpr Duration kSure = std::chrono::seconds(5);
-constexpr double kSeenFrom_m = 0.8;
-constexpr std::size_t kMostRemembered = 1000;
 constexpr double kPatienceAmongMany_s = 4.0;
-/// Routes are looked for within so far of the robot first; a map with longer ones than the second is looked
-/// at whole.
-constexpr double kLooksFirst_m = 12.0, kLooksAll_m = 100.0;
 constexpr Duration kBacksOff = std::chrono::milliseconds(2200);
 constexpr Duration kTouchesCountFor = std::chrono::minutes(1);
-
-bool is_near_any(const std::deque<Vector2>& points, const Vector2& point) {
-  return std::any_of(points.begin(), points.end(),
-                     [&](const Vector2& p) { return (p - point).norm() < kSamePlace_m; });
-}
 
 std::string_view word_of(PlaceKind kind) {
   switch (kind) {
@@ -52,8 +37,7 @@ Autopilot::Autopilot(const AutopilotSetup& setup)
       robot_radius_m_(setup.robot_radius_m),
       planner_(setup.planner, setup.robot_radius_m),
       navigator_(setup.navigation, planner_),
-      exploration_(setup.exploration),
-      frontier_map_(setup.exploration) {}
+      explorer_(setup.exploration, setup.autopilot) {}
 
 const AutopilotStatus& Autopilot::turn(Time now, const AutopilotInputs& in) {
   for (const Order& order : in.orders) take(order);
@@ -86,15 +70,11 @@ void Autopilot::take(const Order& order) {
 /// Whatever was under way is over.
 void Autopilot::end(AutopilotPhase phase, const std::string& reason) {
   navigator_.give_up();
-  place_.reset();
+  explorer_.begin();
+  explored_ = false;
   rests_until_.reset();
-  chosen_at_.reset();
   hindered_since_.reset();
   backs_off_until_.reset();
-  seems_explored_since_.reset();
-  explored_ = false;
-  places_.clear();
-  once_reachable_.clear();
   status_.phase = phase;
   status_.reason = reason;
   status_.goal.reset();
@@ -103,14 +83,13 @@ void Autopilot::end(AutopilotPhase phase, const std::string& reason) {
 
 void Autopilot::observe(Time now, const AutopilotInputs& in) {
   if (!in.world || !is_on()) return;
-  map_ = in.world->map;
-  if (!costmap_) costmap_.emplace(map_.cell_size_m());
+  const GridSnapshot& map = in.world->map;
+  if (!costmap_) costmap_.emplace(map.cell_size_m());
   const bool is_news = in.notes && in.notes != notes_;
   if (is_news) notes_ = in.notes;
   if (felt_.forget(now) || is_news) keep_out();
-  costmap_->update(map_);
-  frontier_map_.update(map_);
-  if (!in.world->pose.lost) visits_.note(now, in.world->pose.map_T_robot.translation());
+  costmap_->update(map);
+  explorer_.observe(now, map, in.world->pose);
 }
 
 void Autopilot::keep_out() {
@@ -161,7 +140,6 @@ bool Autopilot::bear(Time now, const AutopilotInputs& in, const Hindrance& hindr
 void Autopilot::go_home() {
   if (flees_) return;
   navigator_.give_up();
-  place_.reset();
   errand_ = GoHome{};
   flees_ = true;
   status_.mode = AutopilotMode::kNavigation;
@@ -170,14 +148,8 @@ void Autopilot::go_home() {
 void Autopilot::drive(Time now, const AutopilotInputs& in) {
   hindered_since_.reset();
   const Pose2& map_T_robot = in.world->pose.map_T_robot;
-  const bool explores = std::holds_alternative<Explore>(errand_);
-  if (explores && place_ && is_seen(*place_)) {
-    exploration_.vanished(now, *place_);
-    place_.reset();
-    navigator_.give_up();
-  }
   const bool has_aim = navigator_.destination().has_value();
-  if (explores || !has_aim) {
+  if (explores() || !has_aim) {
     if (!set_out(now, map_T_robot.translation())) return;
   }
   const Navigator::Report report = navigator_.turn(now, map_T_robot, *costmap_, in.follow);
@@ -214,75 +186,24 @@ void Autopilot::set_out_to(const Destination& to, bool stops, std::optional<doub
   status_.nearest_map.reset();
 }
 
-/// Looks for the best place from time to time, and at once when there is none.
 bool Autopilot::explore(Time now, const Vector2& robot_map) {
-  const Duration choose_every = from_seconds(config_.choose_every_s);
-  const bool is_due = !chosen_at_ || now < *chosen_at_ || now >= *chosen_at_ + choose_every;
-  if (place_ && !is_due) return true;
-  chosen_at_ = now;
-  find_places(now, robot_map);
-  if (explored_ && config_.when_explored != "revisit") {
+  const bool is_new = explorer_.choose(now, robot_map, *costmap_, planner_);
+  if (explorer_.is_over() && config_.when_explored != "revisit") {
     finish_exploring();
     return false;
   }
-  // Who does not go on for ever stands still to make sure, unless a door has to be looked at.
-  if (config_.when_explored != "revisit" && !waits_for_door_)
-    std::erase_if(places_, [](const Place& p) { return p.kind != PlaceKind::kFrontier; });
-  if (places_.empty()) {
-    place_.reset();
+  if (!explorer_.aim()) {
     navigator_.give_up();
-    status_.reason = explored_ ? "everything within reach is mapped" : "looking whether all is mapped";
-    rests_until_ = now + choose_every;
+    status_.reason =
+        explorer_.is_over() ? "everything within reach is mapped" : "looking whether all is mapped";
     return false;
   }
-  const Place& best = places_.front();
-  if (place_ && (place_->stand_map - best.stand_map).norm() < kSamePlace_m) return true;
-  place_ = best;
   // There is enough to do elsewhere meanwhile.
-  set_out_to({best.stand_map}, false,
-             places_.size() > 1 ? std::optional(kPatienceAmongMany_s) : std::nullopt);
+  const bool among_many = explorer_.places().size() > 1;
+  if (is_new)
+    set_out_to({explorer_.aim()->stand_map}, false,
+               among_many ? std::optional(kPatienceAmongMany_s) : std::nullopt);
   return true;
-}
-
-void Autopilot::find_places(Time now, const Vector2& robot_map) {
-  double looked_m = kLooksFirst_m;
-  const RouteLengths* lengths = &planner_.reach(*costmap_, robot_map, looked_m);
-  const auto look_farther = [&] {
-    if (std::isinf(looked_m)) return false;
-    looked_m = looked_m < kLooksAll_m ? 4.0 * looked_m : std::numeric_limits<double>::infinity();
-    lengths = &planner_.reach(*costmap_, robot_map, looked_m);
-    return true;
-  };
-  const Reachability reach{
-      [&](const Vector2& point) { return lengths->length_m(point); },
-      [&](const Vector2& point, double within_m) { return lengths->nearest_reached(point, within_m); },
-      [&] { return looked_m; }, look_farther};
-  const std::vector<Frontier> frontiers = frontier_map_.frontiers();
-  // A door is seen to be open again by who passes by.
-  places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach, waits_for_door_);
-  for (const Place& place : places_) {
-    if (place.kind != PlaceKind::kFrontier) break;
-    if (!is_near_any(once_reachable_, place.point_map)) once_reachable_.push_back(place.point_map);
-    if (once_reachable_.size() > kMostRemembered) once_reachable_.pop_front();
-  }
-  const auto has_lost_its_way = [&](const Frontier& f) {
-    return !reach.nearest(f.middle_map, kSeenFrom_m) && is_near_any(once_reachable_, f.middle_map);
-  };
-  waits_for_door_ = std::isinf(looked_m) && std::any_of(frontiers.begin(), frontiers.end(), has_lost_its_way);
-  judge_explored(now);
-}
-
-/// All is explored when for some time there was nothing to go to for the first time. Whoever stands in a
-/// doorway goes on soon; a door that was shut behind the robot is waited for longer.
-void Autopilot::judge_explored(Time now) {
-  const bool has_frontier = !places_.empty() && places_.front().kind == PlaceKind::kFrontier;
-  if (has_frontier || exploration_.left_out().next) {
-    seems_explored_since_.reset();
-  } else if (!seems_explored_since_ || now < *seems_explored_since_) {
-    seems_explored_since_ = now;
-  }
-  const Duration patience = waits_for_door_ ? from_seconds(config_.door_patience_s) : kSure;
-  explored_ = seems_explored_since_ && now - *seems_explored_since_ >= patience;
 }
 
 void Autopilot::finish_exploring() {
@@ -290,27 +211,16 @@ void Autopilot::finish_exploring() {
     end(AutopilotPhase::kActive, "");
     errand_ = GoHome{};
   } else {
-    end(AutopilotPhase::kIdle, waits_for_door_ ? "everything is mapped but what lies behind closed doors"
-                                               : "everything within reach is mapped");
+    end(AutopilotPhase::kIdle, explorer_.waits_for_door()
+                                   ? "everything is mapped but what lies behind closed doors"
+                                   : "everything within reach is mapped");
   }
   explored_ = true;
 }
 
-/// What a frontier hid is often seen long before the robot is there.
-bool Autopilot::is_seen(const Place& place) const {
-  if (place.kind != PlaceKind::kFrontier) return false;
-  for (const Frontier& f : frontier_map_.frontiers())
-    if ((f.middle_map - place.point_map).norm() < kSamePlace_m + 0.5 * f.extent_m) return false;
-  return true;
-}
-
 void Autopilot::arrived(Time now, const std::string& remark) {
   failed_stops_ = 0;
-  if (place_) {
-    exploration_.reached(now, *place_);
-    place_.reset();
-    return;
-  }
+  if (explores()) return explorer_.reached(now);
   if (std::holds_alternative<Patrol>(errand_)) {
     ++stop_;
     rests_until_ = now + from_seconds(config_.patrol_pause_s);
@@ -323,11 +233,7 @@ void Autopilot::arrived(Time now, const std::string& remark) {
 }
 
 void Autopilot::failed(Time now, const Navigator::Report& report) {
-  if (place_) {
-    exploration_.failed(now, *place_);
-    place_.reset();
-    return;
-  }
+  if (explores()) return explorer_.failed(now);
   if (const auto* patrol = std::get_if<Patrol>(&errand_)) {
     ++stop_;
     if (++failed_stops_ < patrol->stops.size()) return;
@@ -352,8 +258,9 @@ void Autopilot::show(Time now, const AutopilotInputs& in) {
     status_.remaining_m = length_m;
   }
   status_.places.clear();
-  if (!std::holds_alternative<Explore>(errand_)) return;
-  for (const Place& place : places_) status_.places.push_back({word_of(place.kind), place.point_map});
+  if (!explores()) return;
+  for (const Place& place : explorer_.places())
+    status_.places.push_back({word_of(place.kind), place.point_map});
 }
 
 }  // namespace dynslam

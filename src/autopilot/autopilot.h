@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,13 +8,11 @@
 #include <vector>
 
 #include "autopilot/autopilot_config.h"
-#include "autopilot/exploration.h"
+#include "autopilot/explorer.h"
 #include "autopilot/felt_obstacles.h"
-#include "autopilot/frontier_map.h"
 #include "autopilot/hindrance.h"
 #include "autopilot/navigator.h"
 #include "autopilot/status.h"
-#include "autopilot/visit_map.h"
 #include "grid/world_state.h"
 #include "plan/costmap.h"
 
@@ -61,9 +58,10 @@ class Autopilot {
   /// The way that it came, a little.
   bool backs_off() const { return backs_off_until_.has_value(); }
   /// Nothing that can be reached is left to be seen for the first time.
-  bool is_explored() const { return explored_; }
+  bool is_explored() const { return explored_ || explorer_.is_over(); }
 
  private:
+  bool explores() const { return std::holds_alternative<Explore>(errand_); }
   void take(const Order& order);
   void observe(Time now, const AutopilotInputs& in);
   void drive(Time now, const AutopilotInputs& in);
@@ -72,26 +70,20 @@ class Autopilot {
   void keep_out();
   bool set_out(Time now, const Vector2& robot_map);
   bool explore(Time now, const Vector2& robot_map);
-  void find_places(Time now, const Vector2& robot_map);
-  void judge_explored(Time now);
   void finish_exploring();
   void set_out_to(const Destination& to, bool stops, std::optional<double> patience_s = std::nullopt);
   void arrived(Time now, const std::string& remark);
   void failed(Time now, const Navigator::Report& report);
   void go_home();
   void end(AutopilotPhase phase, const std::string& reason);
-  bool is_seen(const Place& place) const;
   void show(Time now, const AutopilotInputs& in);
 
   AutopilotConfig config_;
   double robot_radius_m_;
   PathPlanner planner_;
   Navigator navigator_;
-  Exploration exploration_;
-  FrontierMap frontier_map_;
-  VisitMap visits_;
+  Explorer explorer_;
   std::optional<Costmap> costmap_;  ///< from the first map on
-  GridSnapshot map_;
   std::shared_ptr<const MapNotes> notes_;
   FeltObstacles felt_;
   std::optional<Time> backs_off_until_;
@@ -101,12 +93,6 @@ class Autopilot {
   std::size_t stop_ = 0;             ///< of a patrol
   std::size_t failed_stops_ = 0;     ///< one after the other
   std::optional<Time> rests_until_;  ///< at a stop
-  std::optional<Place> place_;       ///< that it explores
-  std::vector<Place> places_;
-  std::optional<Time> chosen_at_;
-  std::deque<Vector2> once_reachable_;  ///< frontiers that there was a way to, in the map
-  bool waits_for_door_ = false;         ///< to some there is none any more
-  std::optional<Time> seems_explored_since_;
   std::optional<Time> hindered_since_;
   bool explored_ = false;
   double look_round_radps_ = 0.0;

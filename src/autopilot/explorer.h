@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "autopilot/autopilot_config.h"
+#include "autopilot/exploration.h"
+#include "autopilot/frontier_map.h"
+#include "autopilot/visit_map.h"
+#include "base/pose_estimate.h"
+#include "plan/path_planner.h"
+
+namespace dynslam {
+
+/// The errand to find out what is there: which place to drive to now, whether it is worth it still, and when
+/// all is seen. Pure; one thread.
+class Explorer {
+ public:
+  Explorer(const ExplorationConfig& exploration, const AutopilotConfig& autopilot)
+      : config_(autopilot), exploration_(exploration), frontier_map_(exploration) {}
+
+  /// Keeps up with the map and with where the robot was, whoever drives.
+  void observe(Time now, const GridSnapshot& map, const PoseEstimate& pose);
+  /// Another errand: what was tried in vain stays known.
+  void begin();
+  /// Looks for the best place from time to time, and at once when there is none. Returns whether aim() is
+  /// another than before.
+  bool choose(Time now, const Vector2& robot_map, const Costmap& costmap, PathPlanner& planner);
+  /// The robot is at aim().
+  void reached(Time now);
+  /// There was no way to aim().
+  void failed(Time now);
+
+  /// Nothing: there is nothing to drive to for now.
+  const std::optional<Place>& aim() const { return aim_; }
+  /// As of the last choice, the best first.
+  const std::vector<Place>& places() const { return places_; }
+  /// Nothing that can be reached is left to be seen for the first time.
+  bool is_over() const { return over_; }
+  /// A door was shut before something that is left to be seen.
+  bool waits_for_door() const { return waits_for_door_; }
+
+ private:
+  bool goes_on() const { return config_.when_explored == "revisit"; }
+  bool is_seen(const Place& place) const;
+  void find_places(Time now, const Vector2& robot_map, const Costmap& costmap, PathPlanner& planner);
+  void remember_reachable();
+  void judge(Time now);
+
+  AutopilotConfig config_;
+  Exploration exploration_;
+  FrontierMap frontier_map_;
+  VisitMap visits_;
+  GridSnapshot map_;
+  std::optional<Place> aim_;
+  std::vector<Place> places_;
+  std::optional<Time> chosen_at_;
+  std::deque<Vector2> once_reachable_;  ///< frontiers that there was a way to, in the map
+  bool waits_for_door_ = false;         ///< to some there is none any more
+  std::optional<Time> seems_over_since_;
+  bool over_ = false;
+};
+
+}  // namespace dynslam
