@@ -13,6 +13,8 @@ template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
 
 constexpr double kPatienceAmongMany_s = 4.0;
 constexpr Duration kBacksOff = std::chrono::milliseconds(2200);

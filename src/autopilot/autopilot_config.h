@@ -22,13 +22,13 @@ struct AutopilotConfig {
   /// What is wrong with the values, if anything.
   std::optional<std::string> problem() const {
     if (when_explored == "stay" || when_explored == "home" || when_explored == "revisit") return std::nullopt;
-    return "autopilot.when_explored: must be \"stay\", \"home\" or \"revisit\"";
+    return R"(autopilot.when_explored: must be "stay", "home" or "revisit")";
   }
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit(Field{"when_explored",
-                "when all is mapped: \"stay\", go \"home\", or \"revisit\" what was not seen for long"},
+                R"(when all is mapped: "stay", go "home", or "revisit" what was not seen for long)"},
           self.when_explored);
     visit(Field{"looks_round", "whether a robot that is lost turns on the spot to find itself"},
           self.looks_round);

@@ -63,6 +63,7 @@ std::vector<Place> Exploration::places(Time now, const Vector2& robot_map,
   std::sort(found.begin(), found.end(),
             [&](const Ranked& a, const Ranked& b) { return order(a) < order(b); });
   std::vector<Place> places;
+  places.reserve(found.size());
   for (const Ranked& r : found) places.push_back(r.place);
   if (!places.empty()) chosen_ = places.front();
   return places;

@@ -16,7 +16,7 @@ std::vector<Vector2> corners_in_cells(std::span<const Vector2> outline_m, double
   std::vector<Vector2> corners;
   for (const Vector2& p : outline_m) {
     if (!p.allFinite()) return {};
-    corners.push_back(
+    corners.emplace_back(
         (p / cell_size_m - Vector2(0.5, 0.5)).cwiseMin(kFarthest_cells).cwiseMax(-kFarthest_cells));
   }
   return corners;

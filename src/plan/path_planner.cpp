@@ -53,7 +53,7 @@ Vector2 as_far_as_free(const Costmap& costmap, const Ground& legs, const Vector2
   const double length_m = (to - from).norm();
   const int steps = static_cast<int>(length_m / costmap.cell_size_m());
   for (int i = steps; i > 0; --i) {
-    const Vector2 p = from + i * costmap.cell_size_m() / length_m * (to - from);
+    Vector2 p = from + i * costmap.cell_size_m() / length_m * (to - from);
     if (costmap.contains(p) && leg_cost(costmap, legs, from, p)) return p;
   }
   return from;
