@@ -37,8 +37,14 @@ void AutopilotStage::plan_turn() {
   if (const auto report = report_.get().value) in.follow = *report;
   in.condition = condition(in.world);
   if (const auto came = came_.get().value) in.came = *came;
-  in.is_steered = steered_.exchange(false) && orders.empty();
+  // Who orders anew knows of what was before.
+  const auto interruption = interruption_.get().value;
+  if (interruption && interruption->errand == errand_ && orders.empty()) {
+    in.is_steered = interruption->is_steered;
+    if (!in.is_steered) in.condition = interruption->condition;
+  }
   const AutopilotStatus& status = autopilot_.turn(now, in);
+  errand_ = status.errand;
   wanted_.put({now, status.errand, status.phase == AutopilotPhase::kActive, autopilot_.task(),
                autopilot_.look_round_radps(), autopilot_.backs_off()});
   ports_.autopilot.put(status);
@@ -63,16 +69,9 @@ void AutopilotStage::pilot_turn() {
   const auto wanted = wanted_.get();
   feel(now);
   if (!wanted.value || !wanted.value->drives || now - wanted.value->time > kPlanHolds) return let_go();
-  if (is_steered_by_others()) {
-    yielded_ = wanted.value->errand;
-    steered_ = true;
-  }
+  mind_interruptions(wanted.value->errand);
   // The planning turn is told, but may take its time: no word more until there is another errand.
-  if (yielded_ == wanted.value->errand) {
-    follow(std::nullopt);
-    sent_.reset();
-    return;
-  }
+  if (interrupted_ == wanted.value->errand) return let_go();
   follow(wanted.value->backs_off ? std::nullopt : wanted.value->task);
   if (!wanted.value->backs_off) {
     back_off_.note(applied_);
@@ -100,10 +99,20 @@ bool AutopilotStage::is_steered_by_others() const {
   return last->heard >= sent_->heard && last->seq != sent_->seq && is_moving(last->twist);
 }
 
+/// A stop may be cleared before the next plan.
+void AutopilotStage::mind_interruptions(std::uint64_t errand) {
+  Interruption interruption{errand, is_steered_by_others(), condition(world_)};
+  const auto hindrance = hindrance_of(interruption.condition);
+  const bool is_over = hindrance && hindrance->remedy == Hindrance::Remedy::kGiveUp;
+  if (!interruption.is_steered && !is_over) return;
+  interrupted_ = errand;
+  interruption_.put(std::move(interruption));
+}
+
 /// Leaves the wheel to whoever takes it.
 void AutopilotStage::let_go() {
   follow(std::nullopt);
-  if (sent_ && !is_steered_by_others()) command(clock_.now(), {}, true);
+  if (sent_) command(clock_.now(), {}, true);
   sent_.reset();
 }
 
@@ -147,6 +156,7 @@ Twist AutopilotStage::wanted_twist(Time now, const Wanted& wanted) {
 
 /// A number no smaller than any that another commander may have used meanwhile.
 void AutopilotStage::command(Time now, const Twist& twist, bool gone) {
+  if (is_steered_by_others()) return;  // since it was looked last
   const auto last = ports_.command.get().value;
   sent_ = DriveCommand{(last ? last->seq : 0) + 1, twist, now, gone};
   ports_.command.put(*sent_);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -47,8 +46,15 @@ class AutopilotStage {
     double look_round_radps = 0.0;
     bool backs_off = false;
   };
+  /// From the other to the one: what ends an errand, though it was over before the next plan.
+  struct Interruption {
+    std::uint64_t errand = 0;
+    bool is_steered = false;  ///< a person took the wheel; otherwise it is the condition
+    Condition condition = {};
+  };
   Condition condition(const std::shared_ptr<const WorldState>& world) const;
   bool is_steered_by_others() const;
+  void mind_interruptions(std::uint64_t errand);
   void let_go();
   void feel(Time now);
   void follow(const std::optional<DriveTask>& task);
@@ -62,11 +68,12 @@ class AutopilotStage {
   // Of the planning turn.
   Autopilot autopilot_;
   Time plan_due_;
+  std::uint64_t errand_ = 0;
 
   Latest<Wanted> wanted_;
   Latest<FollowReport> report_;
   Latest<Twist> came_;
-  std::atomic<bool> steered_{false};
+  Latest<Interruption> interruption_;
 
   // Of the commanding turn.
   PathFollower follower_;
@@ -76,8 +83,8 @@ class AutopilotStage {
   Time pilot_due_;
   std::uint64_t scan_version_ = 0;
   std::optional<DriveTask> followed_;
-  std::optional<std::uint64_t> yielded_;  ///< the errand in which a person took the wheel
-  std::optional<DriveCommand> sent_;      ///< the last one; nothing while it does not drive
+  std::optional<std::uint64_t> interrupted_;  ///< errand
+  std::optional<DriveCommand> sent_;          ///< the last one; nothing while it does not drive
   std::shared_ptr<const WorldState> world_;
   Twist applied_, measured_;
 };

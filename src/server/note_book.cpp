@@ -21,9 +21,11 @@ auto place_of(std::vector<Named>& all, const std::string& name) {
 }
 
 template <class Named>
-NoteBook::Refused put(std::vector<Named>& all, const Named& one, std::size_t most) {
+NoteBook::Refused put(std::vector<Named>& all, const Named& one, std::size_t most, NoteBook::Namesake older) {
   const auto at = place_of(all, one.name);
   if (at != all.end() && at->name == one.name) {
+    if (older == NoteBook::Namesake::kKeep)
+      return NoteBook::Refusal{412, "there is one of this name already; choose another name"};
     *at = one;
   } else if (all.size() >= most) {
     return NoteBook::Refusal{409, "there are too many; delete some first"};
@@ -59,16 +61,18 @@ std::string free_name(const fs::path& folder, const std::string& stem) {
   return name;
 }
 
-/// Of the older maps; those of the newest stay.
-void remove_oldest(const fs::path& folder) {
+/// Of the older maps; those of the newest stay, and `newest` does though its name may tell of a clock that
+/// was wrong.
+void remove_oldest(const fs::path& folder, const std::string& newest) {
   std::vector<fs::path> older;
   std::error_code failed;
   for (const auto& entry : fs::directory_iterator(folder, failed)) {
     const std::string name = entry.path().filename();
-    if (name.starts_with("notes-") && name.ends_with(".json")) older.push_back(entry.path());
+    if (name != newest && name.starts_with("notes-") && name.ends_with(".json"))
+      older.push_back(entry.path());
   }
   std::sort(older.begin(), older.end());
-  for (std::size_t i = 0; i + NoteBook::kOlderKept < older.size(); ++i) fs::remove(older[i], failed);
+  for (std::size_t i = 0; i + NoteBook::kOlderKept <= older.size(); ++i) fs::remove(older[i], failed);
 }
 
 }  // namespace
@@ -116,7 +120,7 @@ std::string NoteBook::set_aside(const Notes& older) const {
   const fs::path folder = fs::path(file_->path()).parent_path();
   const std::string name = free_name(folder, "notes-" + older.map_id);
   move_away(file_->path(), folder / name);
-  remove_oldest(folder);
+  remove_oldest(folder, name);
   return "The robot began a new map. What was drawn on the one before does not hold any more; it is kept "
          "as " +
          name + ".";
@@ -141,16 +145,22 @@ NoteBook::Refused NoteBook::change(const std::function<Refused(Notes&)>& edit) {
   return std::nullopt;
 }
 
-NoteBook::Refused NoteBook::put_place(const Destination& place) {
+NoteBook::Refused NoteBook::put_place(const Destination& place, Namesake older) {
   if (auto refusal = refused(note_name_problem(place.name))) return refusal;
   if (auto refusal = refused(destination_problem(place))) return refusal;
-  return change([&](Notes& notes) { return put(notes.places, place, kMostPlaces); });
+  return change([&](Notes& notes) {
+    const auto at = place_of(notes.places, place.name);
+    const bool is_home = at != notes.places.end() && at->name == place.name && notes.home == *at;
+    auto refusal = put(notes.places, place, kMostPlaces, older);
+    if (is_home && !refusal) notes.home = place;
+    return refusal;
+  });
 }
 
-NoteBook::Refused NoteBook::put_area(const NoGoArea& area) {
+NoteBook::Refused NoteBook::put_area(const NoGoArea& area, Namesake older) {
   if (auto refusal = refused(note_name_problem(area.name))) return refusal;
   if (auto refusal = refused(area_problem(area))) return refusal;
-  return change([&](Notes& notes) { return put(notes.areas, area, kMostAreas); });
+  return change([&](Notes& notes) { return put(notes.areas, area, kMostAreas, older); });
 }
 
 NoteBook::Refused NoteBook::put_home(const Destination& home) {
@@ -176,7 +186,7 @@ NoteBook::Refused NoteBook::rename_place(const std::string& name, const std::str
     if (notes.home == place) notes.home->name = new_name;
     place.name = new_name;
     notes.places.erase(at);
-    return put(notes.places, place, kMostPlaces);
+    return put(notes.places, place, kMostPlaces, Namesake::kKeep);
   });
 }
 

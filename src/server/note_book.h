@@ -25,7 +25,9 @@ class NoteBook {
   static constexpr std::size_t kOlderKept = 10;
 
   struct Refusal {
-    int status = 0;   ///< 404, 409 (there is one of that name, or too many), 422, or 507 (not saved)
+    /// 404, 409 (there is one of that name, or too many), 412 (only something new was to be kept), 422, or
+    /// 507 (not saved).
+    int status = 0;
     std::string why;  ///< one sentence
   };
   /// Nothing when it was done.
@@ -38,9 +40,11 @@ class NoteBook {
   Notes notes() const;
   const std::string& map_id() const { return map_id_; }
 
-  /// These replace what has the name already.
-  Refused put_place(const Destination& place);
-  Refused put_area(const NoGoArea& area);
+  /// What a new drawing does to one of the same name.
+  enum class Namesake { kReplace, kKeep };
+  /// A place that is home stays so when it is moved.
+  Refused put_place(const Destination& place, Namesake older = Namesake::kReplace);
+  Refused put_area(const NoGoArea& area, Namesake older = Namesake::kReplace);
   Refused put_home(const Destination& home);
   Refused rename_place(const std::string& name, const std::string& new_name);
   Refused remove_place(const std::string& name);

@@ -97,6 +97,7 @@ std::optional<std::string> note_name_problem(std::string_view name) {
     return "a name has 1 to 40 characters, none of them a control character";
   if (name.front() == '.' || name.find_first_of("/\\") != std::string_view::npos)
     return "a name does not begin with a dot and has no slash in it";
+  if (name.front() == ' ' || name.back() == ' ') return "a name does not begin or end with a space";
   return std::nullopt;
 }
 

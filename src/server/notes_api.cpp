@@ -15,6 +15,11 @@ HttpAnswer done_unless(const NoteBook::Refused& refused) {
   return answer;
 }
 
+/// Two people may draw at the same time, and neither means to replace what the other drew.
+NoteBook::Namesake namesake(const HttpRequest& request) {
+  return request.header("if-none-match") == "*" ? NoteBook::Namesake::kKeep : NoteBook::Namesake::kReplace;
+}
+
 }  // namespace
 
 void NotesApi::add_to(RouteTable& routes) {
@@ -49,7 +54,7 @@ HttpAnswer NotesApi::put_place(const HttpRequest& request, const std::string& na
   Destination place = body.destination();
   if (const auto problem = body.problem()) return *problem;
   place.name = name;
-  return done_unless(book_.put_place(place));
+  return done_unless(book_.put_place(place, namesake(request)));
 }
 
 HttpAnswer NotesApi::rename_place(const HttpRequest& request, const std::string& name) {
@@ -67,7 +72,7 @@ HttpAnswer NotesApi::put_area(const HttpRequest& request, const std::string& nam
   BodyFields body(request);
   const NoGoArea area{name, body.points("corners")};
   if (const auto problem = body.problem()) return *problem;
-  return done_unless(book_.put_area(area));
+  return done_unless(book_.put_area(area, namesake(request)));
 }
 
 HttpAnswer NotesApi::remove_area(const HttpRequest&, const std::string& name) {

@@ -40,6 +40,13 @@ struct SelfDriving {
     } while (!done() && sim.clock.now() - begin < from_seconds(most_s));
     return to_seconds(sim.clock.now() - begin);
   }
+  /// Whether it drives soon after it is told to.
+  bool sets_out(const Destination& to) {
+    step_until([&] { return ports().world.get().value != nullptr; }, 2.0);
+    ports().orders.push(GoThere{to});
+    step_until([&] { return moves(); }, 5.0);
+    return moves();
+  }
   bool moves() { return is_moving(ports().drive.get().value->applied); }
 
   SteppedSim sim{bare_room()};
@@ -48,8 +55,7 @@ struct SelfDriving {
 
 TEST(AutopilotStage, DrivesThereAndLetsGoOfTheWheel) {
   SelfDriving r;
-  r.step_until([&] { return r.ports().world.get().value != nullptr; }, 2.0);
-  r.ports().orders.push(GoThere{{{1.0, 0.3}, 1.0}});
+  ASSERT_TRUE(r.sets_out({{1.0, 0.3}, 1.0}));
   r.step_until([&] { return r.status().phase == AutopilotPhase::kIdle; }, 30.0);
   EXPECT_EQ(r.status().reason, "arrived");
   r.step_until([] { return false; }, 0.5);
@@ -62,10 +68,7 @@ TEST(AutopilotStage, DrivesThereAndLetsGoOfTheWheel) {
 
 TEST(AutopilotStage, WhoTakesTheWheelHasItFromHisFirstCommandOn) {
   SelfDriving r;
-  r.step_until([&] { return r.ports().world.get().value != nullptr; }, 2.0);
-  r.ports().orders.push(GoThere{{{2.0, 0.0}}});
-  r.step_until([&] { return r.moves(); }, 5.0);
-  ASSERT_TRUE(r.moves());
+  ASSERT_TRUE(r.sets_out({{2.0, 0.0}}));
   const Twist pushed{-0.2, 0.0};
   for (int i = 0; i < 10; ++i) {
     const std::uint64_t seq = r.ports().command.get().value->seq + 1;
@@ -81,24 +84,17 @@ TEST(AutopilotStage, WhoTakesTheWheelHasItFromHisFirstCommandOn) {
 
 TEST(AutopilotStage, AnotherOrderAfterThatIsObeyed) {
   SelfDriving r;
-  r.step_until([&] { return r.ports().world.get().value != nullptr; }, 2.0);
-  r.ports().orders.push(GoThere{{{2.0, 0.0}}});
-  r.step_until([&] { return r.moves(); }, 5.0);
+  ASSERT_TRUE(r.sets_out({{2.0, 0.0}}));
   r.ports().command.put({r.ports().command.get().value->seq + 1, {0.1, 0.0}, r.sim.clock.now()});
   r.step_until([&] { return r.status().phase == AutopilotPhase::kOff; }, 1.0);
   ASSERT_EQ(r.status().phase, AutopilotPhase::kOff);
   r.step_until([&] { return !r.moves(); }, 2.0);
-  r.ports().orders.push(GoThere{{{1.0, 0.0}}});
-  r.step_until([&] { return r.moves(); }, 5.0);
-  EXPECT_TRUE(r.moves());
+  EXPECT_TRUE(r.sets_out({{1.0, 0.0}}));
 }
 
 TEST(AutopilotStage, NoticesWheelsThatSlipWithinThreeSeconds) {
   SelfDriving r(true);
-  r.step_until([&] { return r.ports().world.get().value != nullptr; }, 2.0);
-  r.ports().orders.push(GoThere{{{2.0, 0.0}}});
-  r.step_until([&] { return r.moves(); }, 5.0);
-  ASSERT_TRUE(r.moves());
+  ASSERT_TRUE(r.sets_out({{2.0, 0.0}}));
   const double noticed_s = r.step_until([&] { return r.status().phase == AutopilotPhase::kStopped; }, 20.0);
   EXPECT_EQ(r.status().phase, AutopilotPhase::kStopped);
   EXPECT_EQ(r.status().reason, "the wheels turn and the robot stays");
@@ -107,15 +103,28 @@ TEST(AutopilotStage, NoticesWheelsThatSlipWithinThreeSeconds) {
 
 TEST(AutopilotStage, AStopInMidDriveStandsAndClearingItDoesNotSetItOff) {
   SelfDriving r;
-  r.step_until([&] { return r.ports().world.get().value != nullptr; }, 2.0);
-  r.ports().orders.push(GoThere{{{2.0, 0.0}}});
-  r.step_until([&] { return r.moves(); }, 5.0);
+  ASSERT_TRUE(r.sets_out({{2.0, 0.0}}));
   r.ports().stops.push("stopped by a test");
   r.step_until([&] { return r.status().phase == AutopilotPhase::kStopped; }, 1.0);
   EXPECT_EQ(r.status().phase, AutopilotPhase::kStopped);
   r.ports().clear_asked = true;
   r.step_until([&] { return r.moves(); }, 3.0);
   EXPECT_FALSE(r.moves());
+}
+
+TEST(AutopilotStage, AStopThatIsClearedBeforeTheNextPlanEndsTheErrandToo) {
+  SelfDriving r;
+  ASSERT_TRUE(r.sets_out({{2.0, 0.0}}));
+  const Time planned = r.status().time;
+  r.step_until([&] { return r.status().time != planned; }, 1.0);
+  r.ports().stops.push("stopped by a test");
+  r.step_until([] { return false; }, 0.12);
+  r.ports().clear_asked = true;
+  r.step_until([] { return false; }, 3.0);
+  EXPECT_FALSE(r.moves());
+  EXPECT_EQ(r.status().phase, AutopilotPhase::kStopped);
+  EXPECT_EQ(r.status().reason, "stopped by a test");
+  EXPECT_TRUE(r.sets_out({{2.0, 0.0}})) << "another order is obeyed";
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "server/fixed_gate.h"
 #include "server/state_json.h"
 
 namespace dynslam {
@@ -16,23 +17,11 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// Lets everybody in as what is set.
-struct FixedGate : Gate {
-  Role right = Role::kAdmin;
-  Decision admit(const HttpRequest&, Role needed) override {
-    if (right < needed) return {error_answer(403, "not for you"), {}};
-    return {std::nullopt, {"Ada", right, {}, {}}};
-  }
-  Decision admit_to_stop(const HttpRequest& request) override { return admit(request, Role::kNone); }
-};
-
 class ApiTest : public testing::Test {
  protected:
   ApiTest() { api.add_to(routes); }
   HttpAnswer ask(const std::string& method, const std::string& path, const std::string& body = {}) {
-    HttpRequest request{method, path, {}, {}, body, "10.0.0.7"};
-    if (!body.empty()) request.headers["content-type"] = "application/json";
-    return routes.answer(request);
+    return test::ask(routes, method, path, body);
   }
   int status(const std::string& path, const std::string& body) { return ask("POST", path, body).status; }
   void draw_map() {
@@ -46,7 +35,7 @@ class ApiTest : public testing::Test {
 
   Ports ports;
   SteppedClock clock{time_at_s(3)};
-  FixedGate gate;
+  test::FixedGate gate{Role::kAdmin};
   EventCounters events;
   Wheel wheel{ports, clock, {}};
   NoteBook notes{ports.map_notes, "20261126-144501", std::nullopt};

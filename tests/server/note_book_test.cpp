@@ -76,6 +76,12 @@ TEST_F(NoteBookTest, PlacesAreByNameAndCanBeRenamed) {
   const Notes notes = book.notes();
   EXPECT_EQ(notes.places, (std::vector<Destination>{{{0, 0}, {}, "Sofa"}, {{1, 2}, 0.5, "Zoo"}}));
   EXPECT_EQ(notes.home->name, "Zoo") << "it is the same place";
+  EXPECT_EQ(status(book.put_place({{3, 4}, {}, "Zoo"})), 204);
+  EXPECT_EQ(book.notes().home->point_map, Vector2(3, 4)) << "wherever that is";
+  EXPECT_EQ(status(book.put_home({{0, 0}, {}, {}})), 204);
+  EXPECT_EQ(status(book.put_place(dock)), 204);
+  EXPECT_EQ(book.notes().home->point_map, Vector2(0, 0));
+  EXPECT_EQ(status(book.remove_place("Dock")), 204);
   EXPECT_EQ(status(book.remove_place("Zoo")), 204);
   EXPECT_EQ(status(book.remove_place("Zoo")), 404);
 }
@@ -84,8 +90,9 @@ TEST_F(NoteBookTest, RefusesWhatCannotBe) {
   NoteBook book(robot_, "1", std::nullopt);
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   const std::string too_long(41, 'x'), robots = "\xf0\x9f\xa4\x96";
-  for (const std::string& name : {std::string(), too_long, std::string("a\nb"), std::string("\xff"),
-                                  std::string("a/b"), std::string("a\\b"), std::string("..")}) {
+  for (const std::string& name :
+       {std::string(), too_long, std::string("a\nb"), std::string("\xff"), std::string("a/b"),
+        std::string("a\\b"), std::string(".."), std::string(" "), std::string("a "), std::string(" a")}) {
     EXPECT_EQ(status(book.put_place({{0, 0}, {}, name})), 422) << name;
     EXPECT_EQ(status(book.put_area({name, stairs_.corners_map})), 422) << name;
   }
@@ -151,6 +158,14 @@ TEST_F(NoteBookTest, KeepsTheNewestTen) {
   EXPECT_FALSE(fs::exists(folder_ / "notes-11.json"));
   for (int map = 12; map < 22; ++map)
     EXPECT_TRUE(fs::exists(folder_ / ("notes-" + std::to_string(map) + ".json"))) << map;
+}
+
+TEST_F(NoteBookTest, KeepsWhatItSetsAsideThoughTheClockWasWrong) {
+  for (int map = 10; map < 23; ++map)
+    EXPECT_EQ(status(start(std::to_string(map))->put_place({{0, 0}, {}, "p"})), 204);
+  EXPECT_EQ(status(start("01")->put_place({{0, 0}, {}, "p"})), 204);
+  EXPECT_THAT(start("23")->notes().notice, HasSubstr("notes-01.json"));
+  EXPECT_TRUE(fs::exists(folder_ / "notes-01.json"));
 }
 
 TEST_F(NoteBookTest, LosesNothingWhenTwoMapsHaveOneId) {

@@ -4,27 +4,18 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "server/fixed_gate.h"
+
 namespace dynslam {
 namespace {
 
 using nlohmann::json;
 
-struct FixedGate : Gate {
-  Role right = Role::kDriver;
-  Decision admit(const HttpRequest&, Role needed) override {
-    if (right < needed) return {error_answer(403, "not for you"), {}};
-    return {std::nullopt, {"Ada", right, {}, {}}};
-  }
-  Decision admit_to_stop(const HttpRequest& request) override { return admit(request, Role::kNone); }
-};
-
 class NotesApiTest : public testing::Test {
  protected:
   NotesApiTest() { api.add_to(routes); }
   HttpAnswer ask(const std::string& method, const std::string& path, const std::string& body = {}) {
-    HttpRequest request{method, "/api/v1/notes" + path, {}, {}, body, "10.0.0.7"};
-    if (!body.empty()) request.headers["content-type"] = "application/json";
-    return routes.answer(request);
+    return test::ask(routes, method, "/api/v1/notes" + path, body);
   }
   int status(const std::string& method, const std::string& path, const std::string& body = {}) {
     return ask(method, path, body).status;
@@ -33,7 +24,7 @@ class NotesApiTest : public testing::Test {
 
   Latest<MapNotes> robot;
   NoteBook book{robot, "20261126-144501", std::nullopt};
-  FixedGate gate;
+  test::FixedGate gate{Role::kDriver};
   NotesApi api{book, gate};
   RouteTable routes;
 };
@@ -71,6 +62,21 @@ TEST_F(NotesApiTest, RefusesWhatIsNoDrawing) {
                               "null", "[[0,0],[1,1],[1,1001]]"})
     EXPECT_EQ(status("PUT", "/areas/a", R"({"corners":)" + std::string(corners) + "}"), 422) << corners;
   EXPECT_TRUE(book.notes().is_empty());
+}
+
+TEST_F(NotesApiTest, WhatIsNewTakesNoPlaceOfWhatIsThere) {
+  const char* corners[] = {R"({"corners":[[0,0],[1,0],[1,1]]})", R"({"corners":[[5,5],[6,5],[6,6]]})"};
+  const auto put_new = [&](const std::string& path, const std::string& body) {
+    return test::ask(routes, "PUT", "/api/v1/notes" + path, body, {{"if-none-match", "*"}}).status;
+  };
+  EXPECT_EQ(put_new("/areas/Stairs", corners[0]), 204);
+  EXPECT_EQ(put_new("/areas/Stairs", corners[1]), 412);
+  EXPECT_EQ(put_new("/places/Sofa", R"({"x_m":1,"y_m":2})"), 204);
+  EXPECT_EQ(put_new("/places/Sofa", R"({"x_m":3,"y_m":4})"), 412);
+  EXPECT_EQ(notes()["areas"][0]["corners"][0], (json{0.0, 0.0}));
+  EXPECT_EQ(notes()["places"][0]["x_m"], 1.0);
+  EXPECT_EQ(status("PUT", "/areas/Stairs", corners[1]), 204);
+  EXPECT_EQ(notes()["areas"][0]["corners"][0], (json{5.0, 5.0}));
 }
 
 TEST_F(NotesApiTest, ViewersLookAndDriversDraw) {

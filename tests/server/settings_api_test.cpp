@@ -4,19 +4,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "server/fixed_gate.h"
+
 namespace dynslam {
 namespace {
 
 using nlohmann::json;
-
-struct FixedGate : Gate {
-  Role right = Role::kAdmin;
-  Decision admit(const HttpRequest&, Role needed) override {
-    if (right < needed) return {error_answer(403, "not for you"), {}};
-    return {std::nullopt, {"Ada", right, {}, {}}};
-  }
-  Decision admit_to_stop(const HttpRequest& request) override { return admit(request, Role::kNone); }
-};
 
 ServerFacts facts(const std::string& name) {
   ServerFacts all;
@@ -33,14 +26,12 @@ class SettingsApiTest : public testing::Test {
     api.add_to(routes);
   }
   HttpAnswer ask(const std::string& method, const std::string& body = {}) {
-    HttpRequest request{method, "/api/v1/settings", {}, {}, body, {}};
-    if (!body.empty()) request.headers["content-type"] = "application/json";
-    return routes.answer(request);
+    return test::ask(routes, method, "/api/v1/settings", body);
   }
   json settings() { return json::parse(ask("GET").body); }
 
   Ports ports;
-  FixedGate gate;
+  test::FixedGate gate{Role::kAdmin};
   SettingsApi api{ports, gate, facts("Borg")};
   RouteTable routes;
 };
@@ -81,13 +72,12 @@ TEST_F(SettingsApiTest, ViewersLookAndAdminsChange) {
 
 TEST(SettingsApi, ARobotOnAMachineWithoutANameHasOne) {
   Ports ports;
-  FixedGate gate;
+  test::FixedGate gate{Role::kAdmin};
   for (const char* name : {"", "bad\nname"}) {
     SettingsApi api(ports, gate, facts(name));
     RouteTable routes;
     api.add_to(routes);
-    EXPECT_EQ(json::parse(routes.answer({"GET", "/api/v1/settings", {}, {}, {}, {}}).body)["name"],
-              "dynslam");
+    EXPECT_EQ(json::parse(test::ask(routes, "GET", "/api/v1/settings").body)["name"], "dynslam");
   }
 }
 

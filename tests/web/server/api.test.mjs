@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { checkAnswer, contract, operations, takesBody } from "./contract.mjs";
+import { checkAnswer, contract, isSchema, operations, takesBody } from "./contract.mjs";
 import { Robot, sleep, until } from "./robot.mjs";
 
 let robot;
@@ -104,11 +104,15 @@ test("what people draw is kept by name; what the contract does not take is refus
   const notes = await ask("get", "/api/v1/notes");
   assert.deepEqual(notes, { map_id: state.map_id, notice: "", home: { x_m: -1, y_m: 0, name: "Dock" },
     places: [{ name: "Küche 🤖", x_m: 1, y_m: 2, yaw_rad: 0.5 }], areas: [{ name: "Stairs?#%", ...area }] });
-  for (const name of ["x".repeat(41), "\n", ".hidden"]) {
-    const answer = await robot.fetch(`/api/v1/notes/places/${encodeURIComponent(name)}`,
-      { method: "PUT", headers: { "content-type": "application/json" }, body: '{"x_m":0,"y_m":0}' });
-    assert.equal(answer.status, 422, JSON.stringify(name));
+  const putPlace = (name, headers) => robot.fetch(`/api/v1/notes/places/${encodeURIComponent(name)}`,
+    { method: "PUT", headers: { "content-type": "application/json", ...headers }, body: '{"x_m":0,"y_m":0}' });
+  for (const name of ["x".repeat(41), "\n", ".hidden", " ", "a "]) {
+    assert.equal((await putPlace(name)).status, 422, JSON.stringify(name));
+    assert.ok(!isSchema("NoteName", name), JSON.stringify(name));
   }
+  const taken = await putPlace("Küche 🤖", { "if-none-match": "*" });
+  assert.equal(taken.status, 412, "nothing is replaced by what is to be new");
+  await checkAnswer("put", "/api/v1/notes/places/{name}", taken);
   assert.equal((await robot.post("/api/v1/mode", { mode: "patrol", places: ["Küche 🤖"] })).status, 204);
   assert.equal((await robot.post("/api/v1/mode", { mode: "patrol", places: ["Attic"] })).status, 422);
   assert.equal((await robot.post("/api/v1/mode", { mode: "manual" })).status, 204);

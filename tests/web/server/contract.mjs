@@ -20,6 +20,7 @@ function check(at, value, what) {
   assert.ok(validate(value), `${what}: ${ajv.errorsText(validate.errors)}\n${JSON.stringify(value).slice(0, 500)}`);
 }
 export const checkSchema = (name, value) => check(pointer("components", "schemas", name), value, name);
+export const isSchema = (name, value) => ajv.getSchema(pointer("components", "schemas", name))(value);
 
 /** All operations: [method, path, operation]. */
 export const operations = Object.entries(contract.paths).flatMap(([path, methods]) =>

@@ -53,6 +53,7 @@ describe("the indicators", () => {
     assert.equal(of({ goal, route: [[0, 0], [1, 2]], remaining_m: 2.24 }).navigation!.text, "On the way 2.2 m");
     assert.equal(of({ goal, phase: "stopped" }).navigation!.text, "No route");
     assert.equal(of({ mode: "explore" }).exploration!.level, "good");
+    assert.equal(of({ mode: "explore", phase: "idle" }).exploration!.level, "off", "it has seen all");
     assert.equal(of({ mode: "explore" }).navigation!.level, "off");
   });
   it("tell the battery's", () => {

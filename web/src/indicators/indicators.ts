@@ -109,7 +109,7 @@ function navigation(pilot: Autopilot | null | undefined): Indicator {
 }
 
 function exploration(pilot: Autopilot | null | undefined): Indicator {
-  const explores = pilot?.mode === "explore" && pilot.phase !== "stopped";
+  const explores = pilot?.mode === "explore" && pilot.phase === "active";
   return { id: "exploration", icon: "explore", level: explores ? "good" : "off", text: words.exploring, about: words.exploringAbout(pilot?.places.length ?? 0) };
 }
 

@@ -15,11 +15,12 @@ export class NoAnswer extends Error {}
 
 const PATIENCE_MS = 8000;
 
+export type Headers = Record<string, string>;
 type Method = "GET" | "POST" | "PUT" | "PATCH" | "DELETE";
 
 /** Asks the robot; gives the JSON of its answer, or undefined when that has none. Throws Refused or NoAnswer. */
-export async function ask<T>(method: Method, path: string, body?: unknown, patience_ms = PATIENCE_MS): Promise<T> {
-  const answer = await request(method, path, body, patience_ms);
+export async function ask<T>(method: Method, path: string, body?: unknown, patience_ms = PATIENCE_MS, headers: Headers = {}): Promise<T> {
+  const answer = await request(method, path, body, patience_ms, headers);
   if (answer.status === 204) return undefined as T;
   const text = await answer.text().catch(() => "");
   const json = parse(text);
@@ -27,7 +28,7 @@ export async function ask<T>(method: Method, path: string, body?: unknown, patie
   return json as T;
 }
 
-async function request(method: Method, path: string, body: unknown, patience_ms: number): Promise<Response> {
+async function request(method: Method, path: string, body: unknown, patience_ms: number, headers: Headers): Promise<Response> {
   const patience = new AbortController();
   const timer = setTimeout(() => patience.abort(), patience_ms);
   try {
@@ -36,7 +37,8 @@ async function request(method: Method, path: string, body: unknown, patience_ms:
       cache: "no-store",
       keepalive: true, // a STOP goes out though the page is closed
       signal: patience.signal,
-      ...(body === undefined ? {} : { headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) }),
+      headers: { ...headers, ...(body === undefined ? {} : { "Content-Type": "application/json" }) },
+      ...(body === undefined ? {} : { body: JSON.stringify(body) }),
     });
   } catch {
     throw new NoAnswer();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import { signal } from "@preact/signals";
 import { Heartbeat } from "./heartbeat";
-import { ask, NoAnswer, Refused } from "./http";
+import { ask, type Headers, NoAnswer, Refused } from "./http";
 import { LiveSocket } from "./live_socket";
 import { RobotClock } from "./robot_clock";
 import type { Me, State, Twist, Wheel } from "./types";
@@ -127,9 +127,9 @@ export class RobotLink {
   }
 
   /** Asks the robot for something; whether it did it. What it says against it is shown. */
-  async asked(method: "POST" | "PUT" | "PATCH" | "DELETE", path: string, body?: unknown): Promise<boolean> {
+  async asked(method: "POST" | "PUT" | "PATCH" | "DELETE", path: string, body?: unknown, headers?: Headers): Promise<boolean> {
     try {
-      await ask(method, path, body);
+      await ask(method, path, body, undefined, headers);
       return true;
     } catch (error) {
       this.onTrouble(error instanceof Refused ? error.message : null);

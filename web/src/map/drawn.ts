@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /** Reckoning with what people drew. Pure. */
-import type { NamedPlace, NoGoArea } from "../link/types";
-import { distance, isInside, type Point } from "./geometry";
+import type { Goal, NamedPlace, NoGoArea } from "../link/types";
+import { distance, isInside, type Point, surfaceOf } from "./geometry";
 
 export const LONGEST_NAME = 40;
 export const MOST_CORNERS = 64;
@@ -16,9 +16,15 @@ export function placeAt(places: readonly NamedPlace[], point: Point, reach_m: nu
   return nearest && away(nearest) <= reach_m ? nearest : null;
 }
 
-/** The area that was drawn over a point last. */
+/** Of the areas that hold a point the smallest: around it there is room to tap the others. */
 export function areaAt(areas: readonly NoGoArea[], point: Point): NoGoArea | null {
-  return [...areas].reverse().find((area) => isInside(point, cornersOf(area))) ?? null;
+  const surface = (area: NoGoArea) => surfaceOf(cornersOf(area));
+  return areas.filter((area) => isInside(point, cornersOf(area))).sort((a, b) => surface(a) - surface(b))[0] ?? null;
+}
+
+/** Whether two names are given to one point. */
+export function isSameSpot(a: Goal | null | undefined, b: Goal | null | undefined): boolean {
+  return !!a && !!b && a.x_m === b.x_m && a.y_m === b.y_m;
 }
 
 /** "No-go 3" when there are 1 and 2. */

@@ -4,7 +4,8 @@ import { robot } from "../robot";
 import { strings } from "../strings";
 import { Icon } from "../ui/icons";
 import { NameForm } from "./name_form";
-import { putPlace } from "./notes";
+import { giveOrder } from "../pilot/orders";
+import { addPlace, notes } from "./notes";
 import { draft, dropDraft, maySend, picked, resetGoal, sendDraft, tool } from "./tools";
 
 const TURN_RAD = Math.PI / 12;
@@ -14,14 +15,17 @@ export function GoalPanel() {
   if (!maySend.value) return null;
   if (draft.value) return <DraftPanel />;
   const pilot = robot.state.value?.autopilot;
+  if (tool.value === "goal" && (!pilot?.goal || pilot.mode === "explore")) return <p class="map-panel">{strings.map.tapGoal}</p>;
   // Where it explores it chooses itself.
-  if (!pilot?.goal || pilot.mode === "explore") return tool.value === "goal" ? <p class="map-panel">{strings.map.tapGoal}</p> : null;
+  if (pilot?.mode === "explore" && pilot.phase === "active")
+    return <button type="button" class="map-reset" onClick={() => void giveOrder("navigate")}>{strings.map.endExploring}</button>;
+  if (!pilot?.goal || pilot.mode === "explore") return null;
   return <button type="button" class="map-reset" onClick={resetGoal}>{strings.map.resetGoal}</button>;
 }
 
 function DraftPanel() {
   const isNaming = useSignal(false);
-  if (isNaming.value) return <NameForm label={strings.map.placeName} onName={keep} onCancel={() => (isNaming.value = false)} />;
+  if (isNaming.value) return <NameForm label={strings.map.placeName} taken={notes.value?.places.map(({ name }) => name)} onName={keep} onCancel={() => (isNaming.value = false)} />;
   return (
     <div class="map-panel" role="group" aria-label={strings.map.goalPin}>
       <button type="button" class="primary" onClick={() => void sendDraft()}>{strings.map.driveThere}</button>
@@ -37,7 +41,7 @@ function DraftPanel() {
 async function keep(name: string): Promise<boolean> {
   const goal = draft.value;
   if (!goal) return false;
-  const isDone = await putPlace(name, { x_m: goal.x, y_m: goal.y, yaw_rad: goal.yaw_rad });
+  const isDone = await addPlace(name, { x_m: goal.x, y_m: goal.y, yaw_rad: goal.yaw_rad });
   if (isDone) {
     dropDraft();
     picked.value = { kind: "place", name };

@@ -8,7 +8,7 @@ import { draft, putDraft, resetGoal, sendDraft } from "./tools";
 import { GoalPanel } from "./goal_panel";
 import { Legend, MeasurePanel, ScaleBar } from "./legend";
 import { mapModel } from "./map_model";
-import { NotesNotice, OutlinePanel, PickedPanel } from "./notes_panels";
+import { NotesNotice, OutlinePanel, PickedPanel, RemovedPanel } from "./notes_panels";
 import { Scene } from "./scene";
 import { Toolbar } from "./toolbar";
 
@@ -41,6 +41,7 @@ export function MapView({ shown }: { shown: boolean }) {
       <Toolbar centre={centre} zoomBy={zoomBy} />
       <div class="map-foot">
         <NotesNotice />
+        <RemovedPanel />
         <PickedPanel />
         <OutlinePanel />
         <GoalPanel />

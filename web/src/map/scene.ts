@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import { effect, signal } from "@preact/signals";
+import { effect, signal, untracked } from "@preact/signals";
 import { type LatLng, type LeafletMouseEvent, Map as LeafletMap } from "leaflet";
 import { robot } from "../robot";
 import { ChunkLayer, crsOf, latLng, MOST_ZOOM } from "./chunk_layer";
@@ -19,7 +19,7 @@ import { routeOverlay } from "./overlays/route_overlay";
 import { scanOverlay } from "./overlays/scan_overlay";
 import { trailOverlay } from "./overlays/trail_overlay";
 import { TOP_LEVEL } from "./pyramid";
-import { draft, follows, outline, putDraft, useToolAt } from "./tools";
+import { draft, follows, outline, picked, pointOfPicked, putDraft, useToolAt } from "./tools";
 
 /** What the first look shows from side to side, at least: a few rooms. */
 const FIRST_LOOK_M = 12;
@@ -73,6 +73,7 @@ export class Scene {
     this.ends = [
       onLongPress(element, (x, y) => putDraft(pointOf(this.map.mouseEventToLatLng({ clientX: x, clientY: y } as MouseEvent)))),
       effect(() => this.follow()),
+      effect(() => void (picked.value && this.showPicked())),
     ];
     this.tellScale();
   }
@@ -86,6 +87,7 @@ export class Scene {
     this.overlays.hold(!isShown);
     this.cells.hold(!isShown);
     if (isShown) this.follow();
+    if (isShown) this.showPicked();
   }
 
   resize(): void {
@@ -140,6 +142,14 @@ export class Scene {
   private tellScale(): void {
     pixelsPerMetre.value = this.map.project([0, 1]).x - this.map.project([0, 0]).x;
     this.map.getContainer().classList.toggle("crisp", this.map.getZoom() > 0);
+  }
+
+  /** What was chosen by its name may be anywhere. */
+  private showPicked(): void {
+    const place = untracked(pointOfPicked);
+    if (!place || !this.isShown || this.map.getBounds().contains(latLng(place))) return;
+    follows.value = false;
+    this.map.panTo(latLng(place));
   }
 
   /** In steps, and not with each state: a map that is always moving is hard to look at, and dear. */

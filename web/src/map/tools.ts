@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 import { computed, signal } from "@preact/signals";
 import { goTo, giveOrder } from "../pilot/orders";
+import { isPilotOpen } from "../pilot/pages";
 import { robot } from "../robot";
-import { areaAt, MOST_CORNERS, placeAt } from "./drawn";
-import { distance, type Point } from "./geometry";
+import { areaAt, cornersOf, MOST_CORNERS, placeAt, pointOfPlace } from "./drawn";
+import { distance, middleOf, type Point } from "./geometry";
 import { notes } from "./notes";
 
 /** What a tap on the map does. */
@@ -22,7 +23,7 @@ export const isClosed = signal(false);
 
 /** What people drew and somebody tapped. */
 export interface Picked {
-  kind: "place" | "area";
+  kind: "place" | "area" | "home";
   name: string;
 }
 export const picked = signal<Picked | null>(null);
@@ -38,6 +39,9 @@ export const maySend = computed(() => {
   return role === "driver" || role === "admin";
 });
 
+/** What is done on the map needs the room below it. */
+const makeRoom = () => (isPilotOpen.value = false);
+
 /** Takes a tool, or puts it down when it is in the hand. */
 export function takeTool(wanted: Tool): void {
   tool.value = tool.value === wanted ? "look" : wanted;
@@ -45,6 +49,7 @@ export function takeTool(wanted: Tool): void {
   dropOutline();
   picked.value = null;
   if (tool.value !== "goal") draft.value = null;
+  if (tool.value !== "look") makeRoom();
 }
 
 /** A tap at a place, or what stands for one; what is within reach of it is meant. */
@@ -58,9 +63,23 @@ export function useToolAt(place: Point, reach_m: number): void {
 function pickAt(point: Point, reach_m: number): void {
   // A pin stands above its place.
   const above = { x: point.x, y: point.y - reach_m / 2 };
-  const place = placeAt(notes.value?.places ?? [], above, reach_m);
-  const area = place ? null : areaAt(notes.value?.areas ?? [], point);
-  picked.value = place ? { kind: "place", name: place.name } : area && { kind: "area", name: area.name };
+  const { places = [], areas = [], home = null } = notes.value ?? {};
+  const place = placeAt(places, above, reach_m);
+  const area = areaAt(areas, point);
+  if (place) picked.value = { kind: "place", name: place.name };
+  else if (home && distance(pointOfPlace(home), point) <= reach_m) picked.value = { kind: "home", name: "" };
+  else picked.value = area && { kind: "area", name: area.name };
+  if (picked.value) makeRoom();
+}
+
+/** Where it is on the map; null when it is there no more. */
+export function pointOfPicked(): Point | null {
+  const { kind, name } = picked.value ?? {};
+  const { places = [], areas = [], home = null } = notes.value ?? {};
+  const area = kind === "area" && areas.find((one) => one.name === name);
+  if (area) return middleOf(cornersOf(area));
+  const place = kind === "home" ? home : kind === "place" && places.find((one) => one.name === name);
+  return place ? pointOfPlace(place) : null;
 }
 
 function addCorner(corner: Point, reach_m: number): void {
@@ -79,6 +98,7 @@ export function putDraft(place: Point): void {
   if (!maySend.value) return;
   picked.value = null;
   draft.value = place;
+  makeRoom();
 }
 
 export async function sendDraft(): Promise<void> {
@@ -98,4 +118,3 @@ export function resetGoal(): void {
   dropDraft();
   if (maySend.value && robot.state.value?.autopilot?.goal) void giveOrder("navigate");
 }
-

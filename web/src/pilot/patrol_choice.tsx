@@ -23,7 +23,7 @@ export function PatrolChoice({ back }: { back: () => void }) {
   };
   return (
     <div role="group" aria-label={words.patrol}>
-      <p class="note">{words.patrolHow}</p>
+      <p class="note">{names.length === 0 ? words.noPlaces : words.patrolHow}</p>
       <ul class="pilot-list">
         {names.map((name) => (
           <li key={name}>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import "./pilot.css";
 import { NameForm } from "../map/name_form";
-import { notes, putPlace } from "../map/notes";
+import { addPlace, notes } from "../map/notes";
 import { maySend } from "../map/tools";
 import { robot } from "../robot";
 import { strings } from "../strings";
@@ -36,7 +36,7 @@ export function PilotPanel() {
 function pageOf(shown: Page) {
   if (shown === "patrol") return <PatrolChoice back={back} />;
   if (shown === "places") return <PlaceList back={back} />;
-  if (shown === "here") return <NameForm label={words.hereName} onName={saveHere} onCancel={back} />;
+  if (shown === "here") return <NameForm label={words.hereName} taken={notes.value?.places.map(({ name }) => name)} onName={saveHere} onCancel={back} />;
   return <Orders />;
 }
 
@@ -45,7 +45,7 @@ const back = () => (page.value = "orders");
 /** Where the robot is now, and where it looks. */
 async function saveHere(name: string): Promise<boolean> {
   const pose = robot.state.peek()?.pose;
-  const isDone = pose ? await putPlace(name, { x_m: pose.x_m, y_m: pose.y_m, yaw_rad: pose.yaw_rad }) : false;
+  const isDone = pose ? await addPlace(name, { x_m: pose.x_m, y_m: pose.y_m, yaw_rad: pose.yaw_rad }) : false;
   if (isDone) page.value = "places";
   return isDone;
 }
@@ -62,7 +62,7 @@ function Orders() {
       <div class="pilot-orders">
         {order("explore", words.explore, isOnItsWay && pilot?.mode === "explore")}
         {order("home", words.home, false)}
-        <button type="button" disabled={!may || !notes.value?.places.length} onClick={() => (page.value = "patrol")}>{words.patrol}</button>
+        <button type="button" disabled={!may} onClick={() => (page.value = "patrol")}>{words.patrol}</button>
         <button type="button" onClick={() => (page.value = "places")}>{words.places}</button>
         {order("navigate", words.standBy, pilot?.phase === "idle")}
         {order("manual", words.byHand, pilot === null)}

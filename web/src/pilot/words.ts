@@ -16,6 +16,8 @@ export function pilotWords(pilot: Autopilot | null | undefined): PilotWords {
   const { phase, mode, goal, reason, remaining_m } = pilot;
   if (phase === "stopped") return { what: words.stopped, left: "", why: reason || words.look };
   if (phase === "idle") return { what: words.idle, left: "", why: reason };
-  const what = mode === "explore" ? words.exploring : goal ? words.driving(goal.name) : words.waiting;
+  // With a goal and neither a way nor a reason it was there just now: a patrol.
+  const pauses = goal !== null && remaining_m === null && !reason;
+  const what = mode === "explore" ? words.exploring : !goal ? words.waiting : pauses ? words.pausing(goal.name) : words.driving(goal.name);
   return { what, left: remaining_m === null ? "" : words.left(remaining_m.toFixed(1)), why: reason };
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import type { NoGoArea } from "../../link/types";
 import { strings } from "../../strings";
-import { cornersOf } from "../drawn";
+import { cornersOf, pointOfPlace } from "../drawn";
 import { middleOf, type Point } from "../geometry";
 import { notes } from "../notes";
 import { outline, picked } from "../tools";
@@ -15,7 +15,7 @@ export function notesOverlay(pen: Pen): void {
   for (const area of notes.value.areas) drawArea(pen, area, picked.value?.kind === "area" && picked.value.name === area.name);
   const { home, places } = notes.value;
   for (const place of places) drawPin(pen, place, place.name, picked.value?.kind === "place" && picked.value.name === place.name);
-  if (home) drawHome(pen, { x: home.x_m, y: home.y_m });
+  if (home) drawHome(pen, pointOfPlace(home), picked.value?.kind === "home");
 }
 
 /** The area that is being drawn; where it began there is a ring, to end it at. */
@@ -73,13 +73,13 @@ function drawPin(pen: Pen, place: { x_m: number; y_m: number }, name: string, is
 }
 
 /** A house. */
-function drawHome(pen: Pen, home: Point): void {
+function drawHome(pen: Pen, home: Point, isPicked: boolean): void {
   const { context, inks } = pen;
   const [x, y] = pen.at(home);
   context.beginPath();
   for (const [dx, dy] of [[-10, 0], [0, -10], [10, 0], [7, 0], [7, 9], [-7, 9], [-7, 0], [-10, 0]] as const) context.lineTo(x + dx, y + dy);
   context.closePath();
-  strokeWithHalo(pen, inks.note, 2);
+  strokeWithHalo(pen, inks.note, isPicked ? 3.5 : 2);
   context.fillStyle = inks.halo;
   context.fill();
   write(pen, strings.map.home, x, y + 19, inks.note);
