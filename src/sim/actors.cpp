@@ -2,6 +2,7 @@
 #include "sim/actors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -36,18 +37,20 @@ Part cylinder(const Vector2& at, double radius_m, double low_m, double high_m, C
   return part;
 }
 
+constexpr int kPersonParts = 8;
+
 /// Legs that swing as far as the person has walked, a body and a head; in the person's frame, facing along x.
-std::vector<Part> person_parts(const Person& person, double walked_m) {
+std::array<Part, kPersonParts> person_parts(const Person& person, double walked_m) {
   const double swing = 0.2 * std::sin(walked_m / 0.7 * kPi);
   const Colour trousers = 0x2f3848;
-  return {cylinder({swing, 0.1}, 0.07, 0.0, 0.86, trousers),
+  return {{cylinder({swing, 0.1}, 0.07, 0.0, 0.86, trousers),
           cylinder({-swing, -0.1}, 0.07, 0.0, 0.86, trousers),
           cylinder({0, 0}, 0.19, 0.82, 1.45, person.colour),
           cylinder({-swing / 2, 0.23}, 0.05, 0.80, 1.40, mixed(person.colour, 0.85)),
           cylinder({swing / 2, -0.23}, 0.05, 0.80, 1.40, mixed(person.colour, 0.85)),
           cylinder({0, 0}, 0.06, 1.45, 1.52, 0xd8a583),
           cylinder({0, 0}, 0.1, 1.52, 1.74, 0xd8a583),
-          cylinder({-0.02, 0}, 0.105, 1.68, 1.77, 0x4a3524)};
+          cylinder({-0.02, 0}, 0.105, 1.68, 1.77, 0x4a3524)}};
 }
 
 bool touches_robot(const Part& part, const Pose2& world_T_thing, const Pose2& world_T_robot) {
@@ -67,7 +70,7 @@ bool touches_robot(const Part& part, const Pose2& world_T_thing, const Pose2& wo
 }  // namespace
 
 Actors::Actors(const World& world) {
-  for (const Door& door : world.doors) doors_.push_back({door, door.open});
+  for (const Door& door : world.doors) doors_.push_back({door, door.open, std::nullopt});
   for (const Person& person : world.people) {
     PersonState state{person, person.route.front()};
     const Vector2 ahead = person.route[1] - person.route[0];
@@ -119,6 +122,7 @@ bool Actors::step_door(DoorState& state, double now_s, double dt_s, const Pose2&
   for (const DoorMove& move : state.door.schedule) {
     if (now_s >= move.at_s) wanted = move.open;
   }
+  wanted = state.told.value_or(wanted);
   if (wanted == state.open || state.door.opens_rad == 0) return false;
   const double most = state.door.speed_radps * dt_s / std::abs(state.door.opens_rad);
   const double next = state.open + std::clamp(wanted - state.open, -most, most);
@@ -218,6 +222,12 @@ bool Actors::step(double now_s, double dt_s, const Pose2& world_T_robot) {
   for (PersonState& person : people_) moved |= step_person(person, now_s, dt_s, world_T_robot);
   for (FurnitureState& thing : furniture_) moved |= step_furniture(thing, now_s, dt_s, world_T_robot);
   return moved;
+}
+
+/// As surfaces() numbers them: after the doors.
+bool Actors::is_of_person(const Surface& surface) const {
+  const int first = first_part_ + static_cast<int>(doors_.size());
+  return surface.part >= first && surface.part < first + kPersonParts * static_cast<int>(people_.size());
 }
 
 std::vector<Surface> Actors::surfaces() const {

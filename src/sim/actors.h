@@ -18,6 +18,10 @@ class Actors {
   bool step(double now_s, double dt_s, const Pose2& world_T_robot);
   /// All their faces where they are now. Their part ids begin where those of fixed_surfaces end.
   std::vector<Surface> surfaces() const;
+  bool is_of_person(const Surface& surface) const;
+
+  /// From now on, in place of what the world's schedule says. REQUIRES: there is such a door.
+  void move_door(std::size_t door, double open) { doors_[door].told = open; }
 
   /// Points that none of their faces ever goes beyond.
   static std::vector<Vector2> reach(const World& world);
@@ -26,6 +30,7 @@ class Actors {
   struct DoorState {
     Door door;
     double open;
+    std::optional<double> told;  ///< to be open so far, whatever its schedule says
 
     std::pair<Vector2, Vector2> leaf(double share) const;
   };

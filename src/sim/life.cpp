@@ -58,6 +58,18 @@ bool Life::is_in_something(const Vector2& p) const {
   });
 }
 
+Room Life::room() const {
+  constexpr double kCorner_m = 0.17;
+  const Pose2& pose = body_.pose().world_T_robot;
+  Room room{kMostRoom_m, kMostRoom_m};
+  caster_.any_near(pose.translation(), kMostRoom_m + kCorner_m, [&](const Surface& s) {
+    double& least_m = actors_.is_of_person(s) ? room.to_people_m : room.to_things_m;
+    least_m = std::min(least_m, distance_to_robot(pose, s));
+    return false;
+  });
+  return room;
+}
+
 bool Life::is_within(const Vector2& p) const {
   return (p.array() >= caster_.low_corner().array()).all() &&
          (p.array() <= caster_.high_corner().array()).all();

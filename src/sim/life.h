@@ -26,6 +26,11 @@ struct TruePose {
   Pose2 world_T_robot;
 };
 
+/// How much room there is around the robot, at most Life::kMostRoom_m.
+struct Room {
+  double to_things_m = 0.0, to_people_m = 0.0;
+};
+
 /// The world and the robot in it, in steps of fixed length, so that what happens does not depend on who asks
 /// how often. Sensors measure as time goes by and leave their samples in outboxes. No clock, one thread.
 class Life {
@@ -47,6 +52,11 @@ class Life {
   bool place(const Pose2& world_T_robot);
   /// See Simulator::reachable_floor.
   std::vector<Vector2> reachable_floor(double step_m) const;
+  /// Between the body and whatever it would run into.
+  Room room() const;
+  static constexpr double kMostRoom_m = 0.5;
+  /// See Actors::move_door.
+  void move_door(std::size_t door, double open) { actors_.move_door(door, open); }
   RobotBody& body() { return body_; }
   const RobotBody& body() const { return body_; }
   /// 100 a second, the last of them kTruthKept old at most, oldest first.

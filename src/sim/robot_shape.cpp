@@ -36,6 +36,14 @@ bool robot_touches(const Pose2& world_T_robot, const Surface& surface) {
   return enters_rectangle(from, robot_T_world * Vector2(surface.from + surface.along) - from);
 }
 
+double distance_to_robot(const Pose2& world_T_robot, const Surface& surface) {
+  if (surface.low_m >= kRobotHigh_m || surface.high_m <= kRobotLow_m)
+    return std::numeric_limits<double>::infinity();
+  if (surface.radius_m > 0)
+    return std::max(0.0, distance_to_robot(world_T_robot, surface.from) - surface.radius_m);
+  return distance_to_robot(world_T_robot, surface.from, surface.from + surface.along);
+}
+
 double distance_to_robot(const Pose2& world_T_robot, const Vector2& p) {
   return distance_to_rectangle(world_T_robot.inverse() * p);
 }

@@ -14,6 +14,9 @@ inline constexpr double kLidarHeight_m = 0.18;
 /// Whether the robot at a pose touches a face.
 bool robot_touches(const Pose2& world_T_robot, const Surface& surface);
 
+/// How far a face is from the robot, infinitely where it passes over or under it; 0 when they touch.
+double distance_to_robot(const Pose2& world_T_robot, const Surface& surface);
+
 /// How far a point is from the robot; 0 within it.
 double distance_to_robot(const Pose2& world_T_robot, const Vector2& p);
 

@@ -215,6 +215,12 @@ void Simulator::press_estop(bool pressed) {
   estop_since_ = clock_.now();
 }
 
+void Simulator::move_door(std::size_t door, double open) {
+  const Lock lock(mutex_);
+  catch_up();
+  life_.move_door(door, open);
+}
+
 void Simulator::set_battery(double share) {
   const Lock lock(mutex_);
   catch_up();
@@ -233,6 +239,12 @@ SimTruth Simulator::truth() {
           kicks_,
           body.battery().share(),
           body.battery().voltage_v()};
+}
+
+Room Simulator::room() {
+  const Lock lock(mutex_);
+  catch_up();
+  return life_.room();
 }
 
 std::vector<Vector2> Simulator::reachable_floor(double step_m) {

@@ -46,10 +46,15 @@ class Simulator {
   /// Somebody carries the robot: to a pose as seen from where it is. False where something stands.
   bool kick(const Pose2& robot_T_new);
   void press_estop(bool pressed);
+  /// Somebody opens or closes a door of world().doors, by its place there: 0 closed, 1 wide open. From then
+  /// on its schedule does not count. REQUIRES: there is such a door.
+  void move_door(std::size_t door, double open);
   /// How much of the battery is left, 0 to 1.
   void set_battery(double share);
 
   SimTruth truth();
+  /// Around the robot, as things stand.
+  Room room();
   /// Points of the floor that the robot could drive to from where it is, as things stand: `step_m` apart,
   /// around where it is.
   std::vector<Vector2> reachable_floor(double step_m);
