@@ -44,13 +44,12 @@ std::array<Part, kPersonParts> person_parts(const Person& person, double walked_
   const double swing = 0.2 * std::sin(walked_m / 0.7 * kPi);
   const Colour trousers = 0x2f3848;
   return {{cylinder({swing, 0.1}, 0.07, 0.0, 0.86, trousers),
-          cylinder({-swing, -0.1}, 0.07, 0.0, 0.86, trousers),
-          cylinder({0, 0}, 0.19, 0.82, 1.45, person.colour),
-          cylinder({-swing / 2, 0.23}, 0.05, 0.80, 1.40, mixed(person.colour, 0.85)),
-          cylinder({swing / 2, -0.23}, 0.05, 0.80, 1.40, mixed(person.colour, 0.85)),
-          cylinder({0, 0}, 0.06, 1.45, 1.52, 0xd8a583),
-          cylinder({0, 0}, 0.1, 1.52, 1.74, 0xd8a583),
-          cylinder({-0.02, 0}, 0.105, 1.68, 1.77, 0x4a3524)}};
+           cylinder({-swing, -0.1}, 0.07, 0.0, 0.86, trousers),
+           cylinder({0, 0}, 0.19, 0.82, 1.45, person.colour),
+           cylinder({-swing / 2, 0.23}, 0.05, 0.80, 1.40, mixed(person.colour, 0.85)),
+           cylinder({swing / 2, -0.23}, 0.05, 0.80, 1.40, mixed(person.colour, 0.85)),
+           cylinder({0, 0}, 0.06, 1.45, 1.52, 0xd8a583), cylinder({0, 0}, 0.1, 1.52, 1.74, 0xd8a583),
+           cylinder({-0.02, 0}, 0.105, 1.68, 1.77, 0x4a3524)}};
 }
 
 bool touches_robot(const Part& part, const Pose2& world_T_thing, const Pose2& world_T_robot) {

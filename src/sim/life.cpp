@@ -70,6 +70,17 @@ Room Life::room() const {
   return room;
 }
 
+std::optional<Surface> Life::touched() const {
+  const auto& pressed_to = body_.pressed_to();
+  std::optional<Surface> touched;
+  if (!pressed_to) return touched;
+  caster_.any_near(pressed_to->translation(), kMostRoom_m, [&](const Surface& s) {
+    if (robot_touches(*pressed_to, s)) touched = s;
+    return touched.has_value();
+  });
+  return touched;
+}
+
 bool Life::is_within(const Vector2& p) const {
   return (p.array() >= caster_.low_corner().array()).all() &&
          (p.array() <= caster_.high_corner().array()).all();
@@ -93,7 +104,8 @@ bool Life::could_stand_at(const Vector2& p) const {
   return false;
 }
 
-/// Step by step over the floor, in all four directions.
+/// Step by step over the floor, in all four directions. Where the robot itself is wedged in, the floor begins
+/// beside it; that is too near for the other side of a wall.
 std::vector<Vector2> Life::reachable_floor(double step_m) const {
   using Place = std::pair<int, int>;
   const Vector2 start = body_.pose().world_T_robot.translation();
@@ -104,8 +116,9 @@ std::vector<Vector2> Life::reachable_floor(double step_m) const {
     const auto [column, row] = open.front();
     open.pop_front();
     const Vector2 p = start + step_m * Vector2(column, row);
-    if (!could_stand_at(p)) continue;
-    floor.push_back(p);
+    const bool can_stand = could_stand_at(p);
+    if (!can_stand && (p - start).norm() > 1.5 * step_m) continue;
+    if (can_stand) floor.push_back(p);
     for (const Place& next :
          {Place(column + 1, row), Place(column - 1, row), Place(column, row + 1), Place(column, row - 1)}) {
       if (seen.insert(next).second) open.push_back(next);

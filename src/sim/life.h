@@ -55,6 +55,8 @@ class Life {
   /// Between the body and whatever it would run into.
   Room room() const;
   static constexpr double kMostRoom_m = 0.5;
+  /// A face that the robot is pressed to.
+  std::optional<Surface> touched() const;
   /// See Actors::move_door.
   void move_door(std::size_t door, double open) { actors_.move_door(door, open); }
   RobotBody& body() { return body_; }

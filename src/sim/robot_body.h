@@ -57,6 +57,8 @@ class RobotBody {
   int contacts() const { return contacts_; }
   /// Whether it touches what it ran into.
   bool touches() const { return pressed_to_.has_value(); }
+  /// Where it would be by now, were there not what it touches.
+  const std::optional<Pose2>& pressed_to() const { return pressed_to_; }
 
   static constexpr double kWheelBase_m = 0.13, kTrack_m = 0.19, kWheelRadius_m = 0.052;
   static constexpr double kTurningLoss = 1.6;  ///< the track behaves as if it were wider by this
@@ -88,7 +90,7 @@ class RobotBody {
   double distance_m_ = 0.0;
   int contacts_ = 0;
   double since_contact_s_ = 1e9;
-  std::optional<Pose2> pressed_to_;  ///< where it would be by now, were there not what it touches
+  std::optional<Pose2> pressed_to_;
 };
 
 }  // namespace dynslam

@@ -247,6 +247,12 @@ Room Simulator::room() {
   return life_.room();
 }
 
+std::optional<Surface> Simulator::touched() {
+  const Lock lock(mutex_);
+  catch_up();
+  return life_.touched();
+}
+
 std::vector<Vector2> Simulator::reachable_floor(double step_m) {
   const Lock lock(mutex_);
   catch_up();

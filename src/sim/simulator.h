@@ -55,6 +55,8 @@ class Simulator {
   SimTruth truth();
   /// Around the robot, as things stand.
   Room room();
+  /// A face that the robot is pressed to.
+  std::optional<Surface> touched();
   /// Points of the floor that the robot could drive to from where it is, as things stand: `step_m` apart,
   /// around where it is.
   std::vector<Vector2> reachable_floor(double step_m);

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "device/device_error.h"
+#include "sim/robot_shape.h"
 #include "sim/small_world.h"
 #include "support_matchers.h"
 
@@ -298,6 +299,75 @@ TEST(Simulator, KeepsTheTruth) {
   EXPECT_LT(between.x, truth[50].world_T_robot.x);
   EXPECT_FALSE(sim.simulator->true_pose(sim.begin + 2s).has_value());
   EXPECT_FALSE(sim.simulator->true_pose(sim.begin - 1s).has_value());
+}
+
+TEST(Simulator, TheRoomAroundTheRobotIsThatOfItsBody) {
+  World world = bare_room();
+  world.furniture.push_back(box_at(2.0, 3.4, 0.2, 0.0, 0.5));
+  world.furniture.push_back(box_at(2.0, 2.8, 0.1, 1.0, 1.5));  // over its head
+  Person anna;
+  anna.route = {{2.0, 2.5}, {2.0, 1.0}};
+  anna.starts_at_s = 1e6;
+  world.people.push_back(anna);
+  SteppedSim sim(world);
+  EXPECT_NEAR(sim.simulator->room().to_things_m, 0.4 - 0.1 - kRobotWidth_m / 2, 1e-9);
+  constexpr double kLeg_m = 0.07;
+  EXPECT_NEAR(sim.simulator->room().to_people_m, 0.5 - kLeg_m - kRobotWidth_m / 2, 1e-9);
+}
+
+TEST(Simulator, OutInTheOpenThereIsRoomEnough) {
+  SteppedSim sim(bare_room());
+  EXPECT_EQ(sim.simulator->room().to_things_m, Life::kMostRoom_m);
+  EXPECT_EQ(sim.simulator->room().to_people_m, Life::kMostRoom_m);
+}
+
+TEST(Simulator, SaysWhatTheRobotIsPressedTo) {
+  World world = bare_room();
+  world.furniture.push_back(box_at(2.6, 3.0, 0.2, 0.0, 0.07));
+  SteppedSim sim(world);
+  EXPECT_FALSE(sim.simulator->touched());
+  sim.drive({0.4, 0.4}, 0.0, 2.0);
+  ASSERT_TRUE(sim.simulator->touched());
+  EXPECT_EQ(sim.simulator->touched()->high_m, 0.07);
+}
+
+/// Between two thin boards as far apart as it is wide, askew.
+TEST(Simulator, WhereTheRobotIsWedgedInTheFloorBeginsBesideIt) {
+  World world = bare_room();
+  world.world_T_start.yaw = kPi / 8;
+  const Vector2 along = unit(kPi / 8), across(-along.y(), along.x());
+  for (const double side : {-1.0, 1.0}) {
+    Wall board;
+    const Vector2 middle = world.world_T_start.translation() + side * 0.13 * across;
+    board.points = {middle - 0.05 * along, middle + 0.05 * along};
+    board.thickness_m = 0.02;
+    world.walls.push_back(board);
+  }
+  SteppedSim sim(world);
+  EXPECT_GT(sim.simulator->reachable_floor(0.1).size(), 4000U);
+}
+
+TEST(Simulator, ADoorGoesByWhoMovesItRatherThanByItsSchedule) {
+  World world = bare_room();
+  world.walls.push_back({{{4, 0}, {4, 2.5}}});
+  world.walls.push_back({{{4, 3.5}, {4, 6}}});
+  Door door;
+  door.hinge = {4, 2.5};
+  door.latch = {4, 3.5};
+  door.opens_rad = -1.6;
+  door.schedule = {{3.0, 1.0}};
+  world.doors.push_back(door);
+  SteppedSim sim(world);
+  const auto all = sim.simulator->reachable_floor(0.1).size();
+  sim.simulator->move_door(0, 0.0);
+  sim.go_to(2.0);
+  const auto half = sim.simulator->reachable_floor(0.1).size();
+  EXPECT_LT(half, 0.6 * static_cast<double>(all));
+  sim.go_to(6.0);
+  EXPECT_EQ(sim.simulator->reachable_floor(0.1).size(), half);
+  sim.simulator->move_door(0, 1.0);
+  sim.go_to(8.0);
+  EXPECT_EQ(sim.simulator->reachable_floor(0.1).size(), all);
 }
 
 TEST(Simulator, UnderARunningClockADeviceWaitsForItsSample) {
