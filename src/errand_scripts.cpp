@@ -65,6 +65,40 @@ std::optional<MissionEnd> ExploreScript::turn(Time, Ports& ports, Simulator&) {
   return MissionEnd{status->phase == AutopilotPhase::kIdle ? "done" : "stopped", status->reason};
 }
 
+void DoorsByLot::turn(Time now, Simulator& simulator) {
+  const auto& doors = simulator.world().doors;
+  for (std::size_t i = 0; i < doors.size() && !begun_; ++i) {
+    const double open = doors[i].schedule.empty() ? doors[i].open : doors[i].schedule.back().open;
+    if (open > 0.0) doors_.push_back({i, open, false, now + from_seconds(random_.uniform(0.0, 200.0))});
+  }
+  begun_ = true;
+  for (Door& door : doors_) {
+    if (now < door.moves_at) continue;
+    door.closed = !door.closed;
+    simulator.move_door(door.index, door.closed ? 0.0 : door.open);
+    const double lasts_s = door.closed ? random_.uniform(10.0, 40.0) : random_.uniform(100.0, 300.0);
+    door.moves_at = now + from_seconds(lasts_s);
+  }
+}
+
+bool Helper::turn(Time now, Ports& ports) {
+  constexpr double kSlow_mps = 0.15;
+  constexpr Duration kFor = std::chrono::milliseconds(1500);
+  const auto drive = ports.drive.get().value;
+  const bool touches = drive && drive->collision.value_or(false);
+  if (!since_) {
+    if (!touches || gave_up()) return false;
+    since_ = now;
+  } else if (now - *since_ > kFor) {
+    since_.reset();
+    tries_ = touches ? tries_ + 1 : 0;
+  }
+  const auto last = ports.command.get().value;
+  const double speed_mps = !since_ ? 0.0 : tries_ % 2 == 0 ? -kSlow_mps : kSlow_mps;
+  ports.command.put({(last ? last->seq : 0) + 1, {speed_mps, 0.0}, now, !since_});
+  return since_.has_value();
+}
+
 std::optional<MissionEnd> GoalsScript::turn(Time now, Ports& ports, Simulator& simulator) {
   if (!explored_) {
     explored_ = exploration_.turn(now, ports, simulator);
@@ -73,6 +107,7 @@ std::optional<MissionEnd> GoalsScript::turn(Time now, Ports& ports, Simulator& s
     errand_ = exploration_.errand();
   }
   if (explored_->result != "done") return explored_;
+  doors_.turn(now, simulator);
   if (goal_) {
     const auto status = errand_.ended(ports);
     if (!status && now - goal_->since < kMostForOne) return std::nullopt;
@@ -86,6 +121,8 @@ std::optional<MissionEnd> GoalsScript::turn(Time now, Ports& ports, Simulator& s
     goal_.reset();
     ended_at_.reset();
   }
+  if (helper_.turn(now, ports)) return std::nullopt;
+  if (helper_.gave_up()) return MissionEnd{"stopped", "what it touched holds it"};
   if (counts_.tried >= wanted_) {
     const std::string all = std::to_string(counts_.tried - counts_.failed) + " of " + std::to_string(wanted_);
     return MissionEnd{"done", all + " goals reached, or rightly not"};
@@ -122,7 +159,8 @@ Destination GoalsScript::draw(const std::vector<Vector2>& floor) {
 }
 
 void GoalsScript::judge(const Ports& ports, Simulator& simulator, const AutopilotStatus& status) {
-  if (status.phase == AutopilotPhase::kIdle) return judge_place(ports, status);
+  if (status.phase == AutopilotPhase::kIdle) return judge_place(ports, simulator, status);
+  if (!status.reason.starts_with("no route")) return fail(status.reason);
   // A door may have closed, or opened, since.
   const bool was_free = is_on(goal_->floor_map, goal_->to.point_map);
   const bool is_free = is_on(floor_map(simulator), goal_->to.point_map);
@@ -131,7 +169,8 @@ void GoalsScript::judge(const Ports& ports, Simulator& simulator, const Autopilo
   ++counts_.no_route_right;
 }
 
-void GoalsScript::judge_place(const Ports& ports, const AutopilotStatus& status) {
+/// By its own map, as people see it; how far that is from the truth is reported.
+void GoalsScript::judge_place(const Ports& ports, Simulator& simulator, const AutopilotStatus& status) {
   const auto world = ports.world.get().value;
   const Pose2& pose = world->pose.map_T_robot;
   const double off_m = (pose.translation() - goal_->to.point_map).norm();
@@ -144,6 +183,8 @@ void GoalsScript::judge_place(const Ports& ports, const AutopilotStatus& status)
   if (off_m > kReached_m || off_rad > kReached_rad)
     return fail(status.reason + ", but " + std::to_string(off_m) + " m and " + std::to_string(off_rad) +
                 " rad off");
+  const Pose2 truth_map = simulator.world().world_T_start.inverse() * simulator.truth().world_T_robot;
+  worst_true_m_ = std::max(worst_true_m_, (truth_map.translation() - goal_->to.point_map).norm());
   worst_m_ = std::max(worst_m_, off_m);
   worst_rad_ = std::max(worst_rad_, off_rad);
   ++counts_.reached;
@@ -162,7 +203,8 @@ nlohmann::json GoalsScript::details() const {
   return {{"explored_at_s", explored_at_s_},
           {"failures", failures_},
           {"worst_m", worst_m_},
-          {"worst_rad", worst_rad_}};
+          {"worst_rad", worst_rad_},
+          {"worst_true_m", worst_true_m_}};
 }
 
 }  // namespace dynslam

@@ -42,7 +42,7 @@ std::optional<MissionEnd> SimMission::turn() {
   if (passed_s() >= limit_s_) return MissionEnd{"timeout", "the time is up"};
   if (now < next_turn_) return std::nullopt;
   next_turn_ = now + kTurnEvery;
-  driving_.note(now, robot_.ports());
+  driving_.note(now, robot_.ports(), *simulator_);
   return script_->turn(now, robot_.ports(), *simulator_);
 }
 
@@ -69,9 +69,8 @@ nlohmann::json SimMission::finish(const MissionEnd& end) {
                               {"reached", goals.reached},
                               {"no_route_right", goals.no_route_right},
                               {"failed", goals.failed}}},
-                            {"longest_wait_s", driving_.longest_wait_s()},
-                            {"reversals_per_m", driving_.reversals_per_m()},
                             {"verdicts", verdicts()}};
+  figures.update(driving_.figures());
   figures.update(script_->details());
   return figures;
 }
