@@ -52,7 +52,7 @@ void TrueFloor::draw_costmap(const std::vector<Surface>& surfaces) {
     for_each_point(s, cell_m / 2, [&](const Vector2& p) {
       const CellIndex c = cell_at(p, cell_m);
       occupied[chunk_of(c)][static_cast<std::size_t>(c.y & kChunkMask)] |= std::uint64_t{1}
-                                                                          << (c.x & kChunkMask);
+                                                                           << (c.x & kChunkMask);
     });
   }
   ChunkedGrid grid(cell_m);
