@@ -8,6 +8,10 @@
 namespace dynslam {
 namespace {
 
+/// What lies behind a narrower gap is no room.
+constexpr double kDoor_m = 0.7;
+/// Whether a door has opened is looked at when all else is done.
+constexpr double kShutOffCost_m = 1000.0;
 /// So many history cells are told of: the first of them is what matters.
 constexpr std::size_t kMostCells = 16;
 
@@ -48,13 +52,13 @@ struct HistoryBox {
 
 std::vector<Place> Exploration::places(Time now, const Vector2& robot_map,
                                        std::span<const Frontier> frontiers, const VisitMap& visits,
-                                       const GridSnapshot& map, const Reachability& reach, bool restless) {
+                                       const GridSnapshot& map, const Reachability& reach) {
   left_out_ = {};
   std::vector<Ranked> found;
   if (robot_map.allFinite()) {
     found = frontier_places(now, frontiers, reach);
     if (found.empty()) found = unvisited_places(now, robot_map, visits, map, reach);
-    if (found.empty()) found = old_places(now, visits, reach, restless);
+    if (found.empty()) found = old_places(now, visits, reach);
   }
   stay_with_chosen(found);
   const auto order = [](const Ranked& r) {
@@ -73,13 +77,12 @@ std::vector<Place> Exploration::places(Time now, const Vector2& robot_map,
 std::vector<Exploration::Ranked> Exploration::frontier_places(Time now, std::span<const Frontier> frontiers,
                                                               const Reachability& reach) {
   const double most_gain_m = config_.gain_weight * config_.most_extent_m + config_.keep_m;
+  see(now, frontiers);
   std::vector<Ranked> found;
   const auto is_sure = [&](const Ranked& r) { return r.rank + most_gain_m <= reach.looked_m(); };
   do {
     found = frontiers_reached(now, frontiers, reach);
   } while (std::none_of(found.begin(), found.end(), is_sure) && reach.look_farther());
-  seen_before_.clear();
-  for (const Frontier& f : frontiers) seen_before_.push_back(f.middle_map);
   return found;
 }
 
@@ -88,27 +91,41 @@ std::vector<Exploration::Ranked> Exploration::frontiers_reached(Time now, std::s
   left_out_ = {};
   std::vector<Ranked> found;
   for (const Frontier& f : frontiers) {
-    if (!f.middle_map.allFinite() || !was_there_before(f) || is_left_alone(now, f)) continue;
-    const std::optional<Vector2> stand_map = reach.nearest(f.middle_map, config_.stand_within_m);
+    if (!f.middle_map.allFinite() || !is_steady(now, f.middle_map) || is_left_alone(now, f)) continue;
+    std::optional<Vector2> stand_map = reach.nearest(f.middle_map, config_.stand_within_m);
+    const bool is_shut_off = !stand_map;
+    if (is_shut_off) ++left_out_.out_of_reach;
+    if (is_shut_off && f.extent_m >= kDoor_m) stand_map = reach.before_door(f.middle_map);
     const std::optional<double> route_m = stand_map ? route_to(*stand_map, reach) : std::nullopt;
-    if (!route_m) {
-      ++left_out_.out_of_reach;
-      continue;
-    }
+    if (!route_m) continue;
     const TriedPlaces::Tried* tried = frontiers_.find(f.middle_map);
-    const double retry_m = tried ? config_.retry_cost_m * tried->tries : 0.0;
-    found.push_back({*route_m - config_.gain_weight * f.extent_m + retry_m,
-                     {PlaceKind::kFrontier, f.middle_map, *stand_map, *route_m, f.extent_m}});
+    const double later_m =
+        (is_shut_off ? kShutOffCost_m : 0.0) + (tried ? config_.retry_cost_m * tried->tries : 0.0);
+    found.push_back({*route_m - config_.gain_weight * f.extent_m + later_m,
+                     {PlaceKind::kFrontier, f.middle_map, *stand_map, *route_m, f.extent_m, is_shut_off}});
   }
   return found;
 }
 
-/// All are new when there were none.
-bool Exploration::was_there_before(const Frontier& frontier) const {
-  const double near_m = config_.same_place_m + 0.5 * frontier.extent_m;
-  return seen_before_.empty() || std::any_of(seen_before_.begin(), seen_before_.end(), [&](const Vector2& p) {
-           return (p - frontier.middle_map).norm() <= near_m;
-         });
+/// A frontier is one of before when it is near to where that was. Those of the first time were always there.
+void Exploration::see(Time now, std::span<const Frontier> frontiers) {
+  std::vector<Seen> seen;
+  seen.reserve(frontiers.size());
+  for (const Frontier& f : frontiers) {
+    const double near_m = config_.same_place_m + 0.5 * f.extent_m;
+    Time since = seen_.empty() ? Time::min() : now;
+    for (const Seen& s : seen_)
+      if ((s.middle_map - f.middle_map).norm() <= near_m) since = std::min(since, s.since);
+    seen.push_back({f.middle_map, since});
+  }
+  seen_ = std::move(seen);
+}
+
+bool Exploration::is_steady(Time now, const Vector2& middle_map) const {
+  const auto seen =
+      std::find_if(seen_.begin(), seen_.end(), [&](const Seen& s) { return s.middle_map == middle_map; });
+  return seen != seen_.end() &&
+         (seen->since == Time::min() || now - seen->since >= from_seconds(config_.steady_s));
 }
 
 bool Exploration::is_left_alone(Time now, const Frontier& frontier) {
@@ -155,11 +172,10 @@ std::vector<Exploration::Ranked> Exploration::unvisited_places(Time now, const V
 
 /// A cell counts as reached in the circle that fits into it.
 std::vector<Exploration::Ranked> Exploration::old_places(Time now, const VisitMap& visits,
-                                                         const Reachability& reach, bool restless) const {
+                                                         const Reachability& reach) const {
   std::vector<Ranked> found;
   for (const auto& [visit, cell] : visits.by_age()) {
-    if ((!restless && now - visit < from_seconds(config_.revisit_after_s)) || found.size() >= kMostCells)
-      break;
+    if (now - visit < from_seconds(config_.revisit_after_s) || found.size() >= kMostCells) break;
     const Vector2 centre = cell_centre(cell, kHistoryCell_m);
     const TriedPlaces::Tried* tried = cells_.find(centre);
     if (tried && tried->until > now) continue;
@@ -198,19 +214,21 @@ void Exploration::failed(Time now, const Place& place) {
   }
 }
 
-void Exploration::tried_in_vain(Time now, const Place& place) {
+void Exploration::tried_in_vain(Time now, const Place& place, bool may_open) {
   chosen_.reset();
   if (place.point_map.allFinite())
-    frontiers_.add(now, place.point_map, from_seconds(config_.retry_after_s), false);
+    frontiers_.add(now, place.point_map, from_seconds(config_.retry_after_s), may_open);
 }
 
 /// A frontier that comes back where it was is one of those that flicker at the edge of what can be seen.
 void Exploration::vanished(Time now, const Place& place) {
-  if (place.kind == PlaceKind::kFrontier) tried_in_vain(now, place);
+  chosen_.reset();
+  if (place.kind == PlaceKind::kFrontier && place.point_map.allFinite())
+    frontiers_.add(now, place.point_map, Duration(0), false);
 }
 
 void Exploration::reached(Time now, const Place& place) {
-  if (place.kind == PlaceKind::kFrontier) return tried_in_vain(now, place);
+  if (place.kind == PlaceKind::kFrontier) return tried_in_vain(now, place, place.is_shut_off);
   if (place.kind == PlaceKind::kUnvisited) return failed(now, place);
   chosen_.reset();
   if (place.point_map.allFinite()) cells_.rest(now, place.point_map, from_seconds(config_.retry_after_s));

@@ -22,18 +22,24 @@ enum class PlaceKind { kFrontier, kUnvisited, kOld };
 /// A place of interest: something to be seen, and where to see it from.
 struct Place {
   PlaceKind kind = PlaceKind::kFrontier;
-  Vector2 point_map;     ///< what is to be seen
-  Vector2 stand_map;     ///< where to see it from; there is a route
-  double route_m = 0.0;  ///< how long it is
-  double gain = 0.0;     ///< metres of frontier to be seen
+  Vector2 point_map;         ///< what is to be seen
+  Vector2 stand_map;         ///< where to see it from; there is a route
+  double route_m = 0.0;      ///< how long it is
+  double gain = 0.0;         ///< metres of frontier to be seen
+  bool is_shut_off = false;  ///< seen once, but there is no way to it: a door may open
 };
 
 /// What exploring asks of a planner.
 struct Reachability {
   /// The length of the route to a point; none: there is no route.
   std::function<std::optional<double>(const Vector2& point_map)> route_m;
-  /// Of the points that there is a route to the nearest to a point; none: none is so near.
+  /// Of the points that there is a route to the nearest to a point, from which it is in sight; none: none is
+  /// so near.
   std::function<std::optional<Vector2>(const Vector2& point_map, double within_m)> nearest;
+  /// The same, but with something between: where to see whether a door has opened.
+  std::function<std::optional<Vector2>(const Vector2& point_map)> before_door = [](const Vector2&) {
+    return std::optional<Vector2>();
+  };
   /// Only routes up to this length were looked for.
   std::function<double()> looked_m = [] { return std::numeric_limits<double>::infinity(); };
   /// Looks for longer ones; false: that was everything.
@@ -57,15 +63,12 @@ class Exploration {
   explicit Exploration(const ExplorationConfig& config = {})
       : config_(config), frontiers_(config.same_place_m), cells_(config.same_place_m) {}
 
-  /// To be called once a second or so: a frontier counts when it was there the last time too, for at the edge
-  /// of what can be seen they come and go.
+  /// To be called once a second or so: frontiers that come and go do not count.
   /// Places of the most worthy kind of which there are any, best first; none for a robot that is nowhere.
   /// Frontiers: the way, less what is to be seen there; the one that was first the last time stays first
-  /// unless another is clearly better. Cells never visited: the nearest few. Old ones: the oldest few; when
-  /// `restless`, however short ago that was.
+  /// unless another is clearly better. Cells never visited: the nearest few. Old ones: the oldest few.
   std::vector<Place> places(Time now, const Vector2& robot_map, std::span<const Frontier> frontiers,
-                            const VisitMap& visits, const GridSnapshot& map, const Reachability& reach,
-                            bool restless = false);
+                            const VisitMap& visits, const GridSnapshot& map, const Reachability& reach);
 
   /// There was no way to it, whatever the planner said.
   void failed(Time now, const Place& place);
@@ -90,16 +93,20 @@ class Exploration {
                                         const Reachability& reach);
   std::vector<Ranked> unvisited_places(Time now, const Vector2& robot_map, const VisitMap& visits,
                                        const GridSnapshot& map, const Reachability& reach) const;
-  std::vector<Ranked> old_places(Time now, const VisitMap& visits, const Reachability& reach,
-                                 bool restless) const;
-  void tried_in_vain(Time now, const Place& place);
+  std::vector<Ranked> old_places(Time now, const VisitMap& visits, const Reachability& reach) const;
+  void tried_in_vain(Time now, const Place& place, bool may_open);
+  void see(Time now, std::span<const Frontier> frontiers);
+  bool is_steady(Time now, const Vector2& middle_map) const;
   bool is_left_alone(Time now, const Frontier& frontier);
-  bool was_there_before(const Frontier& frontier) const;
   void stay_with_chosen(std::vector<Ranked>& found) const;
 
   ExplorationConfig config_;
   TriedPlaces frontiers_, cells_;
-  std::vector<Vector2> seen_before_;  ///< the frontiers of the last time
+  struct Seen {
+    Vector2 middle_map;
+    Time since;
+  };
+  std::vector<Seen> seen_;  ///< the frontiers there are
   std::optional<Place> chosen_;
   LeftOut left_out_;
 };

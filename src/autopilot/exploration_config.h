@@ -16,6 +16,7 @@ struct ExplorationConfig {
   double stand_within_m = 0.8;
   double gain_weight = 1.0;
   double keep_m = 1.5;
+  double steady_s = 2.5;
   double same_place_m = 0.5;
   double retry_after_s = 60.0;
   double retry_cost_m = 8.0;
@@ -45,6 +46,8 @@ struct ExplorationConfig {
     visit(Field{"keep_m", "another frontier is chosen when it is better by this many metres of way", 0.0,
                 100.0},
           self.keep_m);
+    visit(Field{"steady_s", "a frontier counts when it was there for so long: some only flicker", 0.0, 60.0},
+          self.steady_s);
     visit(Field{"same_place_m", "what was tried this near counts as tried", 0.05, 5.0}, self.same_place_m);
     visit(Field{"retry_after_s", "a place tried in vain is left alone for so long", 0.0, 86400.0},
           self.retry_after_s);

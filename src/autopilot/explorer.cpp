@@ -5,13 +5,20 @@
 #include <cmath>
 #include <limits>
 
+#include "grid/ray_walk.h"
+
 namespace dynslam {
 namespace {
 
 /// Two places so near to each other are one.
 constexpr double kSamePlace_m = 0.6;
+/// So long a frontier must be gone to have been seen.
+constexpr Duration kGone = std::chrono::milliseconds(600);
 constexpr Duration kSure = std::chrono::seconds(5);
 constexpr double kSeenFrom_m = 0.8;
+/// To where a shut door is looked at from, at most, from what lies behind it.
+constexpr double kBeforeDoor_m = 3.0;
+constexpr double kDoor_m = 0.7;
 constexpr std::size_t kMostRemembered = 1000;
 /// Routes are looked for within so far of the robot first; a map with longer ones than the second is looked
 /// at whole.
@@ -20,6 +27,14 @@ constexpr double kLooksFirst_m = 12.0, kLooksAll_m = 100.0;
 bool is_near_any(const std::deque<Vector2>& points, const Vector2& point) {
   return std::any_of(points.begin(), points.end(),
                      [&](const Vector2& p) { return (p - point).norm() < kSamePlace_m; });
+}
+
+/// Through a closed door, or a wall, nothing is seen.
+bool is_in_sight(const GridSnapshot& map, const Vector2& from, const Vector2& to) {
+  bool is_clear = true;
+  walk_ray(from, to, map.cell_size_m(),
+           [&](CellIndex c) { is_clear = is_clear && map.state(c) != CellState::kOccupied; });
+  return is_clear;
 }
 
 }  // namespace
@@ -35,24 +50,37 @@ void Explorer::begin() {
   places_.clear();
   chosen_at_.reset();
   once_reachable_.clear();
-  waits_for_door_ = false;
+  door_.reset();
   seems_over_since_.reset();
   over_ = false;
 }
 
 bool Explorer::choose(Time now, const Vector2& robot_map, const Costmap& costmap, PathPlanner& planner) {
-  if (aim_ && is_seen(*aim_)) {
+  if (!aim_ || !is_seen(*aim_)) {
+    aim_seen_since_.reset();
+  } else if (!aim_seen_since_ || now < *aim_seen_since_) {
+    aim_seen_since_ = now;
+  }
+  if (aim_seen_since_ && now - *aim_seen_since_ >= kGone) {
     exploration_.vanished(now, *aim_);
     aim_.reset();
+    aim_seen_since_.reset();
     chosen_at_.reset();
   }
   if (chosen_at_ && now >= *chosen_at_ && now < *chosen_at_ + from_seconds(config_.choose_every_s))
     return false;
   chosen_at_ = now;
   find_places(now, robot_map, costmap, planner);
-  // Who does not go on for ever stands still to make sure, unless a door has to be looked at.
-  if (!goes_on() && !waits_for_door_)
-    std::erase_if(places_, [](const Place& p) { return p.kind != PlaceKind::kFrontier; });
+  const bool has_frontier = !places_.empty() && places_.front().kind == PlaceKind::kFrontier;
+  if (!has_frontier && !over_ && door_) {
+    places_ = {*door_};
+  } else if (!has_frontier && !goes_on()) {
+    places_.clear();  // it stands still, to make sure
+  }
+  // Before the door it waits.
+  if (!places_.empty() && !has_frontier && (places_.front().stand_map - robot_map).norm() < kSamePlace_m &&
+      waits_for_door())
+    places_.clear();
   if (places_.empty()) {
     aim_.reset();
     return false;
@@ -83,16 +111,25 @@ void Explorer::find_places(Time now, const Vector2& robot_map, const Costmap& co
   };
   const Reachability reach{
       [&](const Vector2& point) { return lengths->length_m(point); },
-      [&](const Vector2& point, double within_m) { return lengths->nearest_reached(point, within_m); },
+      [&](const Vector2& point, double within_m) {
+        const auto stand = lengths->nearest_reached(point, within_m);
+        return stand && is_in_sight(map_, *stand, point) ? stand : std::nullopt;
+      },
+      [&](const Vector2& point) { return lengths->nearest_reached(point, kBeforeDoor_m); },
       [&] { return looked_m; }, look_farther};
   const std::vector<Frontier> frontiers = frontier_map_.frontiers();
-  // A door is seen to be open again by who passes by.
-  places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach, waits_for_door_);
+  places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach);
   remember_reachable();
-  const auto has_lost_its_way = [&](const Frontier& f) {
-    return !reach.nearest(f.middle_map, kSeenFrom_m) && is_near_any(once_reachable_, f.middle_map);
-  };
-  waits_for_door_ = std::isinf(looked_m) && std::any_of(frontiers.begin(), frontiers.end(), has_lost_its_way);
+  door_.reset();
+  for (const Frontier& f : frontiers) {
+    if (!std::isinf(looked_m)) break;
+    if (f.extent_m < kDoor_m) continue;
+    if (reach.nearest(f.middle_map, kSeenFrom_m) || !is_near_any(once_reachable_, f.middle_map)) continue;
+    const Vector2 before_it = lengths->nearest_reached(f.middle_map, kBeforeDoor_m).value_or(robot_map);
+    const double route_m = lengths->length_m(before_it).value_or(0.0);
+    if (!door_ || route_m < door_->route_m)
+      door_ = Place{PlaceKind::kOld, f.middle_map, before_it, route_m, 0.0};
+  }
   judge(now);
 }
 
@@ -113,7 +150,7 @@ void Explorer::judge(Time now) {
   } else if (!seems_over_since_ || now < *seems_over_since_) {
     seems_over_since_ = now;
   }
-  const Duration patience = waits_for_door_ ? from_seconds(config_.door_patience_s) : kSure;
+  const Duration patience = waits_for_door() ? from_seconds(config_.door_patience_s) : kSure;
   over_ = seems_over_since_ && now - *seems_over_since_ >= patience;
 }
 

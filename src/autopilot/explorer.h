@@ -40,7 +40,7 @@ class Explorer {
   /// Nothing that can be reached is left to be seen for the first time.
   bool is_over() const { return over_; }
   /// A door was shut before something that is left to be seen.
-  bool waits_for_door() const { return waits_for_door_; }
+  bool waits_for_door() const { return door_.has_value(); }
 
  private:
   bool goes_on() const { return config_.when_explored == "revisit"; }
@@ -55,10 +55,11 @@ class Explorer {
   VisitMap visits_;
   GridSnapshot map_;
   std::optional<Place> aim_;
+  std::optional<Time> aim_seen_since_;  ///< what was to be seen there is no frontier any more
   std::vector<Place> places_;
   std::optional<Time> chosen_at_;
   std::deque<Vector2> once_reachable_;  ///< frontiers that there was a way to, in the map
-  bool waits_for_door_ = false;         ///< to some there is none any more
+  std::optional<Place> door_;           ///< to one of them there is none any more: where to wait for it
   std::optional<Time> seems_over_since_;
   bool over_ = false;
 };

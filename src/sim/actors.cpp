@@ -137,9 +137,13 @@ bool Actors::step_door(DoorState& state, double now_s, double dt_s, const Pose2&
 }
 
 bool Actors::may_walk_to(const PersonState& state, const Vector2& next, const Pose2& world_T_robot) const {
-  if (distance_to_robot(world_T_robot, next) < kPersonReach_m) return false;
+  const double now_m = distance_to_robot(world_T_robot, state.at);  // who is too near may walk away
+  const auto is_too_near = [&](const Vector2& p) {
+    const double then_m = distance_to_robot(world_T_robot, p);
+    return then_m < kPersonReach_m && then_m <= now_m;
+  };
   const Vector2 ahead = next + kLookAhead_m * (next - state.at).normalized();
-  if (distance_to_robot(world_T_robot, ahead) < kPersonReach_m) return false;
+  if (is_too_near(next) || is_too_near(ahead)) return false;
   return std::none_of(doors_.begin(), doors_.end(), [&](const DoorState& door) {
     const auto [from, to] = door.leaf(door.open);  // who is past it already walks on
     const double far = distance_to_segment(next, from, to);

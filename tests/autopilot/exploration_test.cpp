@@ -259,16 +259,16 @@ TEST(Exploration, NobodyWaitsForWhatWasLookedAtInVain) {
   EXPECT_EQ(e.exploration.left_out().next, std::nullopt);
 }
 
-TEST(Exploration, AFrontierCountsWhenItWasThereTheLastTimeToo) {
+TEST(Exploration, AFrontierCountsWhenItWasThereForAWhile) {
   Explorer e(kTwoDoors);
   const std::vector<Frontier> both = e.flat.frontiers;
   ASSERT_EQ(both.size(), 2U);
   e.flat.frontiers = {both[0]};
   EXPECT_EQ(e.places().size(), 1U) << "all count that were there first";
   e.flat.frontiers = both;
-  EXPECT_EQ(e.places().size(), 1U);
+  for (int i = 0; i < 3; ++i, e.now += seconds(1)) EXPECT_EQ(e.places().size(), 1U) << i;
   EXPECT_EQ(e.places().size(), 2U);
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 10; ++i, e.now += seconds(1)) {
     e.flat.frontiers = i % 2 == 0 ? std::vector{both[0]} : both;
     EXPECT_EQ(e.places().size(), 1U) << "it flickers: " << i;
   }
@@ -279,8 +279,6 @@ TEST(Exploration, WhatCameBackComesAfterWhatIsNew) {
   const auto places = e.places();
   ASSERT_EQ(places.size(), 2U);
   e.exploration.vanished(e.now, places[0]);
-  EXPECT_EQ(e.places().size(), 1U) << "left alone";
-  e.now += seconds(60);
   const auto later = e.places();
   ASSERT_EQ(later.size(), 2U);
   EXPECT_EQ(later[0].point_map, places[1].point_map) << "though it is farther away";
@@ -300,6 +298,7 @@ TEST(Exploration, LooksOnlyAsFarAsTheBestCouldBe) {
                                const auto at = all.nearest(p, within_m);
                                return at && within(all.route_m(*at)) ? at : std::nullopt;
                              },
+                             [](const Vector2&) { return std::optional<Vector2>(); },
                              [&] { return looked_m; },
                              [&] {
                                if (std::isinf(looked_m)) return false;
