@@ -18,7 +18,7 @@ constexpr Duration kSure = std::chrono::seconds(5);
 constexpr double kSeenFrom_m = 0.8;
 /// To where a shut door is looked at from, at most, from what lies behind it.
 constexpr double kBeforeDoor_m = 3.0;
-constexpr double kDoor_m = 0.7;
+constexpr double kDoor_m = 0.6;
 constexpr std::size_t kMostRemembered = 1000;
 /// Routes are looked for within so far of the robot first; a map with longer ones than the second is looked
 /// at whole.
@@ -41,7 +41,7 @@ bool is_in_sight(const GridSnapshot& map, const Vector2& from, const Vector2& to
 
 void Explorer::observe(Time now, const GridSnapshot& map, const PoseEstimate& pose) {
   map_ = map;
-  frontier_map_.update(map);
+  frontier_map_.update(now, map);
   if (!pose.lost) visits_.note(now, pose.map_T_robot.translation());
 }
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "grid/flood_fill.h"
 
@@ -64,17 +65,32 @@ CellTile common(const CellTile& a, const CellTile& b) {
   return tile;
 }
 
+CellTile both(const CellTile& a, const CellTile& b) {
+  CellTile tile;
+  for (std::size_t r = 0; r < tile.size(); ++r) tile[r] = a[r] | b[r];
+  return tile;
+}
+
+CellTile without(const CellTile& a, const CellTile& b) {
+  CellTile tile;
+  for (std::size_t r = 0; r < tile.size(); ++r) tile[r] = a[r] & ~b[r];
+  return tile;
+}
+
 }  // namespace
 
-std::size_t FrontierMap::update(const GridSnapshot& map) {
+std::size_t FrontierMap::update(Time now, const GridSnapshot& map) {
   if (map.cell_size_m() != last_.cell_size_m()) {
     known_.clear();
+    forgotten_.clear();
+    forgotten_before_.clear();
     cells_.clear();
     last_ = {};
   }
   depth_ = cells_for(config_.least_depth_m, map.cell_size_m());
   width_ = cells_for(config_.least_width_m, map.cell_size_m());
   std::set<ChunkIndex> due;
+  grow_old(now, due);
   const ChunkBox box = box_of_both(map.box(), last_.box());
   for (std::int32_t y = box.min.y; y <= box.max.y; ++y) {
     for (std::int32_t x = box.min.x; x <= box.max.x; ++x) {
@@ -89,10 +105,16 @@ std::size_t FrontierMap::update(const GridSnapshot& map) {
 
 /// Most looks make cells surer of what they are: then nothing is due.
 void FrontierMap::look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIndex>& due) {
-  const Known now =
+  Known now =
       chunk ? Known{cells_in_state(*chunk, CellState::kFree), cells_in_state(*chunk, CellState::kUnknown)}
             : Known{kClear, kFull};
   const Known& before = known(index);
+  const CellTile not_occupied = both(before.free, before.unknown);
+  const CellTile lost = without(both(now.free, now.unknown), both(not_occupied, forgotten(index)));
+  if (!is_clear(lost)) forgotten_[index] = both(forgotten_[index], lost);
+  const CellTile left_out = forgotten(index);
+  now.free = without(now.free, left_out);
+  now.unknown = without(now.unknown, left_out);
   add(chunks_near_difference(index, now.free, before.free, width_ - 1), due);
   add(chunks_near_difference(index, now.unknown, before.unknown, depth_), due);
   if (chunk) {
@@ -100,6 +122,31 @@ void FrontierMap::look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIn
   } else {
     known_.erase(index);
   }
+}
+
+/// What was forgotten long enough ago is as the map has it.
+void FrontierMap::grow_old(Time now, std::set<ChunkIndex>& due) {
+  if (forgotten_since_ && now >= *forgotten_since_ && now - *forgotten_since_ < kForgotten) return;
+  forgotten_since_ = now;
+  const Tiles old = std::exchange(forgotten_before_, std::exchange(forgotten_, {}));
+  for (const auto& [index, cells] : old) {
+    const Chunk* chunk = last_.find(index);
+    const auto at = known_.find(index);
+    if (!chunk || at == known_.end()) continue;
+    const CellTile back = without(cells, forgotten(index));
+    const Known before = at->second;
+    at->second.free = both(before.free, common(cells_in_state(*chunk, CellState::kFree), back));
+    at->second.unknown = both(before.unknown, common(cells_in_state(*chunk, CellState::kUnknown), back));
+    add(chunks_near_difference(index, at->second.free, before.free, width_ - 1), due);
+    add(chunks_near_difference(index, at->second.unknown, before.unknown, depth_), due);
+  }
+}
+
+CellTile FrontierMap::forgotten(ChunkIndex index) const {
+  CellTile cells{};
+  for (const Tiles* tiles : {&forgotten_, &forgotten_before_})
+    if (const auto at = tiles->find(index); at != tiles->end()) cells = both(cells, at->second);
+  return cells;
 }
 
 const FrontierMap::Known& FrontierMap::known(ChunkIndex index) const {

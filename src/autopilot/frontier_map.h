@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
 #include "autopilot/deep_cells.h"
 #include "autopilot/exploration_config.h"
 #include "autopilot/frontier.h"
+#include "base/time.h"
 #include "grid/chunked_grid.h"
 
 namespace dynslam {
@@ -16,17 +18,20 @@ namespace dynslam {
 /// Keeps up with a map which of its cells are frontier cells: free cells beside (left, right, above, below)
 /// the unknown (thesis 6.6). The unknown counts where a square of `least_depth_m` fits into it: what is
 /// missed along walls and between beams is no frontier, nor is anything that the robot would not fit into.
-/// The free counts where a square of `least_width_m` fits into it: a lone ray that went through a wall is no
-/// way. Chunks that do not exist are unknown.
+/// What was occupied a moment ago counts as that for a while: where people walked along a wall the map
+/// forgets both. The free counts where a square of `least_width_m` fits into it: a lone ray that went through
+/// a wall is no way. Chunks that do not exist are unknown.
 ///
 /// Memory: 1.1 KB a chunk, and the snapshot that was seen last. One thread.
 class FrontierMap {
  public:
   explicit FrontierMap(const ExplorationConfig& config = {}) : config_(config) {}
 
+  static constexpr Duration kForgotten = std::chrono::seconds(60);
+
   /// Looks at what changed since the last call, and around it. Returns how many chunks were done anew; a map
   /// of other cells begins anew.
-  std::size_t update(const GridSnapshot& map);
+  std::size_t update(Time now, const GridSnapshot& map);
 
   bool is_frontier(CellIndex c) const;
   /// All frontier cells, row by row.
@@ -42,15 +47,20 @@ class FrontierMap {
     bool operator()(ChunkIndex a, ChunkIndex b) const { return a.y != b.y ? a.y < b.y : a.x < b.x; }
   };
 
+  using Tiles = std::map<ChunkIndex, CellTile>;
+  void grow_old(Time now, std::set<ChunkIndex>& due);
+  CellTile forgotten(ChunkIndex index) const;
   void look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIndex>& due);
   void redo(ChunkIndex index);
   const Known& known(ChunkIndex index) const;
   ChunkWindow around(ChunkIndex index, CellTile Known::*cells) const;
 
   ExplorationConfig config_;
-  int depth_ = 1, width_ = 1;                       ///< least_depth_m and least_width_m in cells
-  GridSnapshot last_;                               ///< held, so that a chunk's address says which it is
-  std::map<ChunkIndex, Known> known_;               ///< what is not in here is unknown
+  int depth_ = 1, width_ = 1;           ///< least_depth_m and least_width_m in cells
+  GridSnapshot last_;                   ///< held, so that a chunk's address says which it is
+  std::map<ChunkIndex, Known> known_;   ///< what is not in here is unknown
+  Tiles forgotten_, forgotten_before_;  ///< what was occupied lately, and before that
+  std::optional<Time> forgotten_since_;
   std::map<ChunkIndex, CellTile, RowByRow> cells_;  ///< no tile is clear
 };
 

@@ -32,7 +32,7 @@ inline GridSnapshot map_of(const std::vector<std::string>& rows, double cell_siz
 inline std::vector<Frontier> frontiers_of(const std::vector<std::string>& rows,
                                           double cell_size_m = kLetter_m) {
   FrontierMap frontiers;
-  frontiers.update(map_of(rows, cell_size_m));
+  frontiers.update({}, map_of(rows, cell_size_m));
   return frontiers.frontiers();
 }
 

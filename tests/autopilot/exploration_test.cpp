@@ -32,7 +32,7 @@ class Flat {
     }
     map = map_of(rows_);
     FrontierMap cells;
-    cells.update(map);
+    cells.update({}, map);
     frontiers = cells.frontiers();
     spread();
   }

@@ -97,6 +97,32 @@ std::vector<CellIndex> frontier_cells_one_by_one(const GridSnapshot& map, int de
   return cells;
 }
 
+/// Until what was known before is unknown like all else. Returns how many chunks were done anew.
+std::size_t update_for_good(FrontierMap& frontiers, const GridSnapshot& map) {
+  static Time now{};
+  std::size_t done = 0;
+  for (int i = 0; i < 3; ++i) done += frontiers.update(now += FrontierMap::kForgotten, map);
+  return done;
+}
+
+TEST(FrontierMap, WhatIsForgottenIsNoFrontierForAWhile) {
+  Canvas canvas;
+  canvas.fill({0, 0}, 60, 60, CellState::kFree);
+  canvas.fill({20, 20}, 10, 10, CellState::kOccupied);
+  FrontierMap frontiers(with_depth(3));
+  Time now{};
+  frontiers.update(now, canvas.grid.snapshot());
+  canvas.fill({20, 20}, 10, 10, CellState::kUnknown);
+  EXPECT_EQ(frontiers.update(now, canvas.grid.snapshot()), 0U);
+  EXPECT_FALSE(frontiers.is_frontier({19, 25}));
+  EXPECT_TRUE(frontiers.is_frontier({0, 25})) << "what was never known is";
+  for (int s = 0; s < 120; ++s) frontiers.update(now += std::chrono::seconds(1), canvas.grid.snapshot());
+  EXPECT_TRUE(frontiers.is_frontier({19, 25})) << "nobody looked there for a long time";
+  canvas.fill({20, 20}, 10, 10, CellState::kFree);
+  frontiers.update(now, canvas.grid.snapshot());
+  EXPECT_FALSE(frontiers.is_frontier({19, 25}));
+}
+
 TEST(FrontierMap, KeepsUpWithAChangingMap) {
   std::mt19937 random(3);
   for (const auto& [depth, width] : {std::pair{1, 1}, {5, 1}, {1, 3}, {4, 3}}) {
@@ -105,12 +131,12 @@ TEST(FrontierMap, KeepsUpWithAChangingMap) {
     for (int round = 0; round < 4; ++round) {
       for (auto n = 1 + random() % 3; n > 0; --n) fill_at_random(canvas, random);
       const GridSnapshot map = canvas.grid.snapshot();
-      frontiers.update(map);
+      update_for_good(frontiers, map);
       const std::vector<CellIndex> expected = frontier_cells_one_by_one(map, depth, width);
       ASSERT_EQ(frontiers.cells(), expected) << depth << ", " << width << ", " << round;
       for (const CellIndex c : expected) ASSERT_TRUE(frontiers.is_frontier(c));
       FrontierMap afresh(with_depth(depth, width));
-      afresh.update(map);
+      afresh.update({}, map);
       ASSERT_EQ(afresh.cells(), expected);
       EXPECT_FALSE(expected.empty());
     }
@@ -121,23 +147,23 @@ TEST(FrontierMap, DoesNothingAnewWhenNoCellChangesItsState) {
   Canvas canvas;
   canvas.fill({-100, -100}, 300, 300, CellState::kFree);
   FrontierMap frontiers;
-  EXPECT_GT(frontiers.update(canvas.grid.snapshot()), 20U);
-  EXPECT_EQ(frontiers.update(canvas.grid.snapshot()), 0U);
+  EXPECT_GT(frontiers.update({}, canvas.grid.snapshot()), 20U);
+  EXPECT_EQ(frontiers.update({}, canvas.grid.snapshot()), 0U);
   canvas.grid.add_hit({0, 0});  // less sure, free still
-  EXPECT_EQ(frontiers.update(canvas.grid.snapshot()), 0U);
+  EXPECT_EQ(frontiers.update({}, canvas.grid.snapshot()), 0U);
 }
 
 TEST(FrontierMap, DoesAnewOnlyWhatIsNearAChange) {
   Canvas canvas;
   canvas.fill({0, 0}, 640, 640, CellState::kFree);
   FrontierMap frontiers(with_depth(5));
-  frontiers.update(canvas.grid.snapshot());
+  update_for_good(frontiers, canvas.grid.snapshot());
   canvas.fill({160, 160}, 2, 2, CellState::kUnknown);
-  EXPECT_EQ(frontiers.update(canvas.grid.snapshot()), 1U) << "in the middle of a chunk";
+  EXPECT_EQ(update_for_good(frontiers, canvas.grid.snapshot()), 1U) << "in the middle of a chunk";
   canvas.fill({200, 160}, 2, 2, CellState::kOccupied);
-  EXPECT_EQ(frontiers.update(canvas.grid.snapshot()), 1U);
+  EXPECT_EQ(update_for_good(frontiers, canvas.grid.snapshot()), 1U);
   canvas.fill({192, 192}, 2, 2, CellState::kUnknown);
-  EXPECT_EQ(frontiers.update(canvas.grid.snapshot()), 4U) << "in a corner";
+  EXPECT_EQ(update_for_good(frontiers, canvas.grid.snapshot()), 4U) << "in a corner";
 }
 
 TEST(FrontierMap, FollowsAMapThatWasDrawnAnew) {
@@ -147,7 +173,7 @@ TEST(FrontierMap, FollowsAMapThatWasDrawnAnew) {
   FrontierMap frontiers(with_depth(3));
   for (const Canvas* canvas : {&wide, &narrow, &wide}) {
     const GridSnapshot map = const_cast<Canvas*>(canvas)->grid.snapshot();
-    frontiers.update(map);
+    update_for_good(frontiers, map);
     EXPECT_EQ(frontiers.cells(), frontier_cells_one_by_one(map, 3, 1));
   }
 }
@@ -156,17 +182,17 @@ TEST(FrontierMap, BeginsAnewWithCellsOfAnotherSize) {
   FrontierMap frontiers;
   Canvas canvas;
   canvas.fill({0, 0}, 50, 50, CellState::kFree);
-  frontiers.update(canvas.grid.snapshot());
+  frontiers.update({}, canvas.grid.snapshot());
   EXPECT_FALSE(frontiers.cells().empty());
   ChunkedGrid other(0.02);
-  frontiers.update(other.snapshot());
+  frontiers.update({}, other.snapshot());
   EXPECT_TRUE(frontiers.cells().empty());
   EXPECT_TRUE(frontiers.frontiers().empty());
 }
 
 TEST(FrontierMap, OfNothingIsEmpty) {
   FrontierMap frontiers;
-  EXPECT_EQ(frontiers.update({}), 0U);
+  EXPECT_EQ(frontiers.update({}, GridSnapshot()), 0U);
   EXPECT_TRUE(frontiers.cells().empty());
   EXPECT_FALSE(frontiers.is_frontier({0, 0}));
 }

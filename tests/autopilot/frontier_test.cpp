@@ -138,7 +138,7 @@ TEST(Frontiers, AreNotAlongARayThatWentThroughAWall) {
       for (int look = 0; look < 10; ++look) grid.add_miss({side + i, side / 2 + i / 3});
     }
     FrontierMap frontiers;
-    frontiers.update(grid.snapshot());
+    frontiers.update({}, grid.snapshot());
     EXPECT_TRUE(frontiers.frontiers().empty()) << cell_size_m;
   }
 }

@@ -105,7 +105,7 @@ void update_all(benchmark::State& state) {
   std::size_t redone = 0;
   for (auto _ : state) {
     FrontierMap frontiers;
-    redone = frontiers.update(map);
+    redone = frontiers.update({}, map);
   }
   state.counters["redone"] = static_cast<double>(redone);
 }
@@ -113,7 +113,7 @@ void update_all(benchmark::State& state) {
 void update_after_scan(benchmark::State& state) {
   ChunkedGrid& grid = floor_grid();
   FrontierMap frontiers;
-  frontiers.update(grid.snapshot());
+  frontiers.update({}, grid.snapshot());
   std::size_t redone = 0;
   bool is_new_known = false;
   for (auto _ : state) {
@@ -121,7 +121,7 @@ void update_after_scan(benchmark::State& state) {
     change(grid, is_new_known = !is_new_known);
     const GridSnapshot map = grid.snapshot();
     state.ResumeTiming();
-    redone = frontiers.update(map);
+    redone = frontiers.update({}, map);
   }
   change(grid, false);
   state.counters["redone"] = static_cast<double>(redone);
@@ -139,7 +139,7 @@ void find_all_frontiers(benchmark::State& state) {
 void choose_frontier(benchmark::State& state) {
   const GridSnapshot map = floor_grid().snapshot();
   FrontierMap cells;
-  cells.update(map);
+  cells.update({}, map);
   const auto frontiers = cells.frontiers();
   const FreeSpaceReach planner;
   const Reachability reach = planner.reach();
