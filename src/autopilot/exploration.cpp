@@ -95,7 +95,8 @@ std::vector<Exploration::Ranked> Exploration::frontiers_reached(Time now, std::s
     std::optional<Vector2> stand_map = reach.nearest(f.middle_map, config_.stand_within_m);
     const bool is_shut_off = !stand_map;
     if (is_shut_off) ++left_out_.out_of_reach;
-    if (is_shut_off && f.extent_m >= kDoor_m) stand_map = reach.before_door(f.middle_map);
+    if (is_shut_off && f.extent_m >= kDoor_m && !was_looked_at(f.middle_map))
+      stand_map = reach.before_door(f.middle_map);
     const std::optional<double> route_m = stand_map ? route_to(*stand_map, reach) : std::nullopt;
     if (!route_m) continue;
     const TriedPlaces::Tried* tried = frontiers_.find(f.middle_map);
@@ -212,6 +213,11 @@ void Exploration::failed(Time now, const Place& place) {
   } else if (cells_.add(now, place.point_map, retry) >= config_.most_tries) {
     cells_.rest(now, place.point_map, from_seconds(config_.revisit_after_s));
   }
+}
+
+bool Exploration::was_looked_at(const Vector2& frontier_map) const {
+  const TriedPlaces::Tried* tried = frontiers_.find(frontier_map);
+  return tried && tried->tries > 0 && !tried->may_open;
 }
 
 void Exploration::tried_in_vain(Time now, const Place& place, bool may_open) {

@@ -78,6 +78,9 @@ class Exploration {
   /// It was seen from afar, and is a place of interest no more.
   void vanished(Time now, const Place& place);
 
+  /// It was looked at from near, and stayed what it was.
+  bool was_looked_at(const Vector2& frontier_map) const;
+
   /// As of the last call of places(). Exploring is over when there is no place and `next` is none.
   const LeftOut& left_out() const { return left_out_; }
 

@@ -19,6 +19,7 @@ constexpr double kSeenFrom_m = 0.8;
 /// To where a shut door is looked at from, at most, from what lies behind it.
 constexpr double kBeforeDoor_m = 3.0;
 constexpr double kDoor_m = 0.6;
+constexpr double kNoWay_m = 1e6;
 constexpr std::size_t kMostRemembered = 1000;
 /// Routes are looked for within so far of the robot first; a map with longer ones than the second is looked
 /// at whole.
@@ -50,7 +51,7 @@ void Explorer::begin() {
   places_.clear();
   chosen_at_.reset();
   once_reachable_.clear();
-  door_.reset();
+  shut_.clear();
   seems_over_since_.reset();
   over_ = false;
 }
@@ -71,16 +72,7 @@ bool Explorer::choose(Time now, const Vector2& robot_map, const Costmap& costmap
     return false;
   chosen_at_ = now;
   find_places(now, robot_map, costmap, planner);
-  const bool has_frontier = !places_.empty() && places_.front().kind == PlaceKind::kFrontier;
-  if (!has_frontier && !over_ && door_) {
-    places_ = {*door_};
-  } else if (!has_frontier && !goes_on()) {
-    places_.clear();  // it stands still, to make sure
-  }
-  // Before the door it waits.
-  if (!places_.empty() && !has_frontier && (places_.front().stand_map - robot_map).norm() < kSamePlace_m &&
-      waits_for_door())
-    places_.clear();
+  if (!has_frontier()) wait_well(robot_map);
   if (places_.empty()) {
     aim_.reset();
     return false;
@@ -120,17 +112,28 @@ void Explorer::find_places(Time now, const Vector2& robot_map, const Costmap& co
   const std::vector<Frontier> frontiers = frontier_map_.frontiers();
   places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach);
   remember_reachable();
-  door_.reset();
+  shut_.clear();
   for (const Frontier& f : frontiers) {
-    if (!std::isinf(looked_m)) break;
-    if (f.extent_m < kDoor_m) continue;
+    if (!std::isinf(looked_m) || f.extent_m < kDoor_m || exploration_.was_looked_at(f.middle_map)) continue;
     if (reach.nearest(f.middle_map, kSeenFrom_m) || !is_near_any(once_reachable_, f.middle_map)) continue;
-    const Vector2 before_it = lengths->nearest_reached(f.middle_map, kBeforeDoor_m).value_or(robot_map);
-    const double route_m = lengths->length_m(before_it).value_or(0.0);
-    if (!door_ || route_m < door_->route_m)
-      door_ = Place{PlaceKind::kOld, f.middle_map, before_it, route_m, 0.0};
+    const auto before_it = lengths->nearest_reached(f.middle_map, kBeforeDoor_m);
+    shut_.push_back({PlaceKind::kOld, f.middle_map, before_it.value_or(f.middle_map),
+                     before_it ? lengths->length_m(*before_it).value_or(0.0) : kNoWay_m});
   }
   judge(now);
+}
+
+/// Where nothing new can be reached: before a door that was shut, until that is given up; about the room,
+/// when the door is too far to be seen; else it stands still to make sure, unless it goes on for ever.
+void Explorer::wait_well(const Vector2& robot_map) {
+  const auto nearest = std::min_element(shut_.begin(), shut_.end(),
+                                        [](const Place& a, const Place& b) { return a.route_m < b.route_m; });
+  if (nearest == shut_.end() || over_) {
+    if (!goes_on()) places_.clear();
+  } else if (nearest->route_m < kNoWay_m) {
+    places_ = {*nearest};
+    if ((nearest->stand_map - robot_map).norm() < kSamePlace_m) places_.clear();
+  }
 }
 
 void Explorer::remember_reachable() {
@@ -144,8 +147,7 @@ void Explorer::remember_reachable() {
 /// It is over when for some time there was nothing to go to for the first time. Whoever stands in a doorway
 /// goes on soon; a door that was shut behind the robot is waited for longer.
 void Explorer::judge(Time now) {
-  const bool has_frontier = !places_.empty() && places_.front().kind == PlaceKind::kFrontier;
-  if (has_frontier || exploration_.left_out().next) {
+  if (has_frontier() || exploration_.left_out().next) {
     seems_over_since_.reset();
   } else if (!seems_over_since_ || now < *seems_over_since_) {
     seems_over_since_ = now;

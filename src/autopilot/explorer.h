@@ -40,13 +40,15 @@ class Explorer {
   /// Nothing that can be reached is left to be seen for the first time.
   bool is_over() const { return over_; }
   /// A door was shut before something that is left to be seen.
-  bool waits_for_door() const { return door_.has_value(); }
+  bool waits_for_door() const { return !shut_.empty(); }
 
  private:
   bool goes_on() const { return config_.when_explored == "revisit"; }
   bool is_seen(const Place& place) const;
   void find_places(Time now, const Vector2& robot_map, const Costmap& costmap, PathPlanner& planner);
   void remember_reachable();
+  void wait_well(const Vector2& robot_map);
+  bool has_frontier() const { return !places_.empty() && places_.front().kind == PlaceKind::kFrontier; }
   void judge(Time now);
 
   AutopilotConfig config_;
@@ -59,7 +61,7 @@ class Explorer {
   std::vector<Place> places_;
   std::optional<Time> chosen_at_;
   std::deque<Vector2> once_reachable_;  ///< frontiers that there was a way to, in the map
-  std::optional<Place> door_;           ///< to one of them there is none any more: where to wait for it
+  std::vector<Place> shut_;             ///< to these there is none any more: where to wait for it
   std::optional<Time> seems_over_since_;
   bool over_ = false;
 };

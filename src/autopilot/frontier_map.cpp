@@ -110,11 +110,9 @@ void FrontierMap::look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIn
             : Known{kClear, kFull};
   const Known& before = known(index);
   const CellTile not_occupied = both(before.free, before.unknown);
-  const CellTile lost = without(both(now.free, now.unknown), both(not_occupied, forgotten(index)));
+  const CellTile lost = without(now.unknown, both(not_occupied, forgotten(index)));
   if (!is_clear(lost)) forgotten_[index] = both(forgotten_[index], lost);
-  const CellTile left_out = forgotten(index);
-  now.free = without(now.free, left_out);
-  now.unknown = without(now.unknown, left_out);
+  now.unknown = without(now.unknown, forgotten(index));
   add(chunks_near_difference(index, now.free, before.free, width_ - 1), due);
   add(chunks_near_difference(index, now.unknown, before.unknown, depth_), due);
   if (chunk) {
@@ -134,11 +132,9 @@ void FrontierMap::grow_old(Time now, std::set<ChunkIndex>& due) {
     const auto at = known_.find(index);
     if (!chunk || at == known_.end()) continue;
     const CellTile back = without(cells, forgotten(index));
-    const Known before = at->second;
-    at->second.free = both(before.free, common(cells_in_state(*chunk, CellState::kFree), back));
-    at->second.unknown = both(before.unknown, common(cells_in_state(*chunk, CellState::kUnknown), back));
-    add(chunks_near_difference(index, at->second.free, before.free, width_ - 1), due);
-    add(chunks_near_difference(index, at->second.unknown, before.unknown, depth_), due);
+    const CellTile before = at->second.unknown;
+    at->second.unknown = both(before, common(cells_in_state(*chunk, CellState::kUnknown), back));
+    add(chunks_near_difference(index, at->second.unknown, before, depth_), due);
   }
 }
 

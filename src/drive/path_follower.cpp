@@ -122,7 +122,7 @@ FollowOutput PathFollower::next(const FollowInputs& in, const RecentMotion& moti
     out = std::move(*at_goal);
   else
     out = drive(tick);
-  return watch_motion(in.now, std::move(out));
+  return watch_motion(in, std::move(out));
 }
 
 /// Carries the last pose along as measured, and gives the new one a share: less noise, and no delay.
@@ -197,12 +197,16 @@ bool PathFollower::faces_goal_heading(const Tick& tick) const {
 bool PathFollower::is_at_rest(Time now) const { return turned_at_ && now - *turned_at_ > kRest; }
 
 /// Wheels that slip, or are blocked by what the lidar does not see.
-FollowOutput PathFollower::watch_motion(Time now, FollowOutput out) {
+FollowOutput PathFollower::watch_motion(const FollowInputs& in, FollowOutput out) {
+  const Time now = in.now;
+  const bool is_held = in.held && is_moving(out.twist);
   if (!is_moving(out.twist) || are_far(anchor_, pose_, kMoved_m, kMoved_rad)) {
     anchor_ = pose_;
     anchor_at_ = now;
   }
   if (now - anchor_at_ <= from_seconds(config_.no_progress_s)) return out;
+  // Another way may be free; asking for the same one again and again is none.
+  if (is_held) return rest(Following::kBlocked, "something is too near");
   stuck_ = true;
   return rest(Following::kStuck, "told to move, but does not");
 }

@@ -17,6 +17,7 @@ struct FollowInputs {
   Time now;
   Pose2 map_T_robot;  ///< now: the caller extrapolates
   Twist measured;     ///< as best known: yaw rate of the IMU, speed of SLAM; NaN: unknown
+  bool held = false;  ///< what it asks for is not driven: who guards it sees something in the way
 };
 
 enum class Following {
@@ -70,7 +71,7 @@ class PathFollower {
   std::optional<FollowOutput> come_to_goal(const Tick& tick);
   bool faces_goal_heading(const Tick& tick) const;
   bool is_at_rest(Time now) const;
-  FollowOutput watch_motion(Time now, FollowOutput out);
+  FollowOutput watch_motion(const FollowInputs& in, FollowOutput out);
   FollowOutput rest(Following state, std::string reason = {});
   double remaining_m() const { return route_.length_m() - progress_m_; }
   bool is_near_goal() const { return remaining_m() <= 2.0 * config_.pass_m; }
