@@ -95,8 +95,10 @@ std::vector<Exploration::Ranked> Exploration::frontiers_reached(Time now, std::s
     std::optional<Vector2> stand_map = reach.nearest(f.middle_map, config_.stand_within_m);
     const bool is_shut_off = !stand_map;
     if (is_shut_off) ++left_out_.out_of_reach;
-    if (is_shut_off && f.extent_m >= kDoor_m && !was_looked_at(f.middle_map))
+    if (is_shut_off && f.extent_m >= kDoor_m && !was_looked_at(f.middle_map)) {
       stand_map = reach.before_door(f.middle_map);
+      if (!stand_map) ++left_out_.cut_off;
+    }
     const std::optional<double> route_m = stand_map ? route_to(*stand_map, reach) : std::nullopt;
     if (!route_m) continue;
     const TriedPlaces::Tried* tried = frontiers_.find(f.middle_map);

@@ -51,6 +51,7 @@ struct LeftOut {
   std::size_t waiting = 0;       ///< tried in vain, to be tried again
   std::size_t given_up = 0;      ///< tried in vain too often
   std::size_t out_of_reach = 0;  ///< no route to where it would be seen
+  std::size_t cut_off = 0;       ///< of these as wide as a door, with no way to anywhere near
   std::optional<Time> next;      ///< when the first of those that had no route may be tried again
 };
 

@@ -15,6 +15,8 @@ constexpr double kSamePlace_m = 0.6;
 /// So long a frontier must be gone to have been seen.
 constexpr Duration kGone = std::chrono::milliseconds(600);
 constexpr Duration kSure = std::chrono::seconds(5);
+/// Who stands in the only way out has gone on by then.
+constexpr Duration kWayFree = std::chrono::seconds(20);
 constexpr double kSeenFrom_m = 0.8;
 /// To where a shut door is looked at from, at most, from what lies behind it.
 constexpr double kBeforeDoor_m = 3.0;
@@ -152,7 +154,9 @@ void Explorer::judge(Time now) {
   } else if (!seems_over_since_ || now < *seems_over_since_) {
     seems_over_since_ = now;
   }
-  const Duration patience = waits_for_door() ? from_seconds(config_.door_patience_s) : kSure;
+  const Duration patience = waits_for_door()                      ? from_seconds(config_.door_patience_s)
+                            : exploration_.left_out().cut_off > 0 ? kWayFree
+                                                                  : kSure;
   over_ = seems_over_since_ && now - *seems_over_since_ >= patience;
 }
 

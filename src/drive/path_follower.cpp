@@ -17,6 +17,7 @@ constexpr double kBackward_m = 0.3, kForward_m = 0.5;
 constexpr double kStandsUnder_radps = 0.1;
 constexpr Duration kRest = std::chrono::milliseconds(300);
 constexpr double kHeadingShare = 0.8;  ///< of what may be off at the goal; the rest is for the pose's noise
+constexpr Duration kHeldLately = std::chrono::seconds(1);
 constexpr double kMoved_m = 0.05, kMoved_rad = 0.09;
 
 Pose2 moved_by(const Twist& twist, double s) {
@@ -199,14 +200,14 @@ bool PathFollower::is_at_rest(Time now) const { return turned_at_ && now - *turn
 /// Wheels that slip, or are blocked by what the lidar does not see.
 FollowOutput PathFollower::watch_motion(const FollowInputs& in, FollowOutput out) {
   const Time now = in.now;
-  const bool is_held = in.held && is_moving(out.twist);
+  if (in.held && is_moving(out.twist)) held_at_ = now;
   if (!is_moving(out.twist) || are_far(anchor_, pose_, kMoved_m, kMoved_rad)) {
     anchor_ = pose_;
     anchor_at_ = now;
   }
   if (now - anchor_at_ <= from_seconds(config_.no_progress_s)) return out;
   // Another way may be free; asking for the same one again and again is none.
-  if (is_held) return rest(Following::kBlocked, "something is too near");
+  if (held_at_ && now - *held_at_ < kHeldLately) return rest(Following::kBlocked, "something is too near");
   stuck_ = true;
   return rest(Following::kStuck, "told to move, but does not");
 }

@@ -115,8 +115,9 @@ class PathFollower {
   bool turned_back_ = false;       ///< this turn was tried the other way round
   std::optional<Time> hindered_at_;
   double hindered_remaining_m_ = 0.0;
-  Pose2 anchor_;    ///< where it was when it last was seen to move,
-  Time anchor_at_;  ///< and when
+  std::optional<Time> held_at_;  ///< last
+  Pose2 anchor_;                 ///< where it was when it last was seen to move,
+  Time anchor_at_;               ///< and when
 };
 
 }  // namespace dynslam

@@ -126,8 +126,11 @@ bool Actors::step_door(DoorState& state, double now_s, double dt_s, const Pose2&
   const double most = state.door.speed_radps * dt_s / std::abs(state.door.opens_rad);
   const double next = state.open + std::clamp(wanted - state.open, -most, most);
   const auto [from, to] = state.leaf(next);
+  const auto [from_now, to_now] = state.leaf(state.open);
   for (const Pose2& robot : {world_T_robot, world_T_robot_soon_}) {
-    if (distance_to_robot(robot, from, to) < kLeafThickness_m / 2 + kGap_m) return false;
+    const double then_m = distance_to_robot(robot, from, to);
+    const bool comes_nearer = then_m <= distance_to_robot(robot, from_now, to_now);
+    if (then_m < kLeafThickness_m / 2 + kGap_m && comes_nearer) return false;
   }
   for (const PersonState& p : people_) {
     if (distance_to_segment(p.at, from, to) < kPersonRadius_m) return false;
