@@ -52,8 +52,9 @@ struct HistoryBox {
 
 std::vector<Place> Exploration::places(Time now, const Vector2& robot_map,
                                        std::span<const Frontier> frontiers, const VisitMap& visits,
-                                       const GridSnapshot& map, const Reachability& reach) {
+                                       const GridSnapshot& map, const Reachability& reach, bool once) {
   left_out_ = {};
+  once_ = once;
   std::vector<Ranked> found;
   if (robot_map.allFinite()) {
     found = frontier_places(now, frontiers, reach);
@@ -134,7 +135,7 @@ bool Exploration::is_steady(Time now, const Vector2& middle_map) const {
 bool Exploration::is_left_alone(Time now, const Frontier& frontier) {
   const TriedPlaces::Tried* tried = frontiers_.find(frontier.middle_map);
   if (!tried) return false;
-  if (tried->tries >= config_.most_tries) {
+  if (tried->tries >= (once_ && !tried->may_open ? 1 : config_.most_tries)) {
     ++left_out_.given_up;
     return true;
   }

@@ -65,11 +65,13 @@ class Exploration {
       : config_(config), frontiers_(config.same_place_m), cells_(config.same_place_m) {}
 
   /// To be called once a second or so: frontiers that come and go do not count.
+  /// `once`: what was tried in vain is not tried again.
   /// Places of the most worthy kind of which there are any, best first; none for a robot that is nowhere.
   /// Frontiers: the way, less what is to be seen there; the one that was first the last time stays first
   /// unless another is clearly better. Cells never visited: the nearest few. Old ones: the oldest few.
   std::vector<Place> places(Time now, const Vector2& robot_map, std::span<const Frontier> frontiers,
-                            const VisitMap& visits, const GridSnapshot& map, const Reachability& reach);
+                            const VisitMap& visits, const GridSnapshot& map, const Reachability& reach,
+                            bool once = false);
 
   /// There was no way to it, whatever the planner said.
   void failed(Time now, const Place& place);
@@ -111,6 +113,7 @@ class Exploration {
     Time since;
   };
   std::vector<Seen> seen_;  ///< the frontiers there are
+  bool once_ = false;
   std::optional<Place> chosen_;
   LeftOut left_out_;
 };

@@ -10,6 +10,7 @@ struct ExplorationConfig {
   double least_depth_m = 0.25;
   double least_width_m = 0.1;
   double least_length_m = 0.4;
+  double last_look_length_m = 0.3;
   double least_extent_m = 0.3;
   double most_extent_m = 3.0;
   double merge_within_m = 0.2;
@@ -31,6 +32,9 @@ struct ExplorationConfig {
           self.least_width_m);
     visit(Field{"least_length_m", "a frontier has cells for a line of this length", 0.0, 10.0},
           self.least_length_m);
+    visit(
+        Field{"last_look_length_m", "or of this length when all else is done; it is gone to once", 0.0, 10.0},
+        self.last_look_length_m);
     visit(Field{"least_extent_m", "the diagonal of the rectangle around a frontier is at least this", 0.0,
                 10.0},
           self.least_extent_m);

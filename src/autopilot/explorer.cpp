@@ -56,6 +56,7 @@ void Explorer::begin() {
   shut_.clear();
   seems_over_since_.reset();
   over_ = false;
+  last_look_ = false;
 }
 
 bool Explorer::choose(Time now, const Vector2& robot_map, const Costmap& costmap, PathPlanner& planner) {
@@ -88,7 +89,7 @@ bool Explorer::choose(Time now, const Vector2& robot_map, const Costmap& costmap
 /// What a frontier hid is often seen long before the robot is there.
 bool Explorer::is_seen(const Place& place) const {
   if (place.kind != PlaceKind::kFrontier) return false;
-  const std::vector<Frontier> frontiers = frontier_map_.frontiers();
+  const std::vector<Frontier> frontiers = frontier_map_.frontiers(last_look_);
   return std::none_of(frontiers.begin(), frontiers.end(), [&](const Frontier& f) {
     return (f.middle_map - place.point_map).norm() < kSamePlace_m + 0.5 * f.extent_m;
   });
@@ -111,8 +112,8 @@ void Explorer::find_places(Time now, const Vector2& robot_map, const Costmap& co
       },
       [&](const Vector2& point) { return lengths->nearest_reached(point, kBeforeDoor_m); },
       [&] { return looked_m; }, look_farther};
-  const std::vector<Frontier> frontiers = frontier_map_.frontiers();
-  places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach);
+  const std::vector<Frontier> frontiers = frontier_map_.frontiers(last_look_);
+  places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach, last_look_);
   remember_reachable();
   shut_.clear();
   for (const Frontier& f : frontiers) {
@@ -153,6 +154,7 @@ void Explorer::judge(Time now) {
     seems_over_since_.reset();
   } else if (!seems_over_since_ || now < *seems_over_since_) {
     seems_over_since_ = now;
+    last_look_ = true;
   }
   const Duration patience = waits_for_door()                      ? from_seconds(config_.door_patience_s)
                             : exploration_.left_out().cut_off > 0 ? kWayFree

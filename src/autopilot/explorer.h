@@ -64,6 +64,7 @@ class Explorer {
   std::vector<Place> shut_;             ///< to these there is none any more: where to wait for it
   std::optional<Time> seems_over_since_;
   bool over_ = false;
+  bool last_look_ = false;  ///< only what was hardly worth it is left
 };
 
 }  // namespace dynslam

@@ -177,6 +177,12 @@ void FrontierMap::redo(ChunkIndex index) {
   if (!is_clear(cells)) cells_[index] = cells;
 }
 
+std::vector<Frontier> FrontierMap::frontiers(bool last_look) const {
+  ExplorationConfig config = config_;
+  if (last_look) config.least_length_m = std::min(config.least_length_m, config.last_look_length_m);
+  return find_frontiers(cells(), last_.cell_size_m(), config);
+}
+
 bool FrontierMap::is_frontier(CellIndex c) const {
   const auto at = cells_.find(chunk_of(c));
   return at != cells_.end() &&

@@ -36,8 +36,8 @@ class FrontierMap {
   bool is_frontier(CellIndex c) const;
   /// All frontier cells, row by row.
   std::vector<CellIndex> cells() const;
-  /// Where they make up something worth going to.
-  std::vector<Frontier> frontiers() const { return find_frontiers(cells(), last_.cell_size_m(), config_); }
+  /// Where they make up something worth going to; `last_look`: or hardly.
+  std::vector<Frontier> frontiers(bool last_look = false) const;
 
  private:
   struct Known {
