@@ -18,7 +18,7 @@ using std::chrono::milliseconds;
 
 constexpr int kMostBad = 5;
 constexpr int kMostBadStatuses = 3;
-constexpr int kMostFrozenLooks = 2;
+constexpr int kMostFrozenLooks = 4;
 /// A transfer that took longer was interrupted, who knows where.
 constexpr Duration kLongestRead = milliseconds(10);
 constexpr Duration kLookEvery = std::chrono::seconds(1);
@@ -194,6 +194,7 @@ void Bno055::watch_freezing() {
   frozen_looks_ = same ? frozen_looks_ + 1 : 0;
   acceleration_ = acceleration;
   changed_ = false;
+  if (same) status_due_ = due_;
   if (frozen_looks_ < kMostFrozenLooks) return;
   chip_.count("frozen");
   give_up(DeviceError("imu: the chip says the same for ever: it is reset"));

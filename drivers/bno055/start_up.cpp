@@ -22,6 +22,7 @@ constexpr Duration kOutOfConfig = milliseconds(20);
 constexpr Duration kCrystalTakes = milliseconds(650);
 constexpr Duration kFusionTakes = milliseconds(1000);  ///< at most
 constexpr Duration kSettling = milliseconds(50);
+constexpr Duration kAfterTrouble = milliseconds(200);
 
 }  // namespace
 
@@ -38,6 +39,7 @@ bool StartUp::go_on(Time until) {
       take_step();
     } catch (const DeviceError&) {
       restart();
+      due_ += kAfterTrouble;
       throw;
     }
   }

@@ -22,7 +22,7 @@ class StartUp {
   StartUp(const Bno055Config& config, const Clock& clock, I2cDevice& chip);
 
   /// Goes on until the chip fuses, and returns true, or until the clock says `until`. Throws DeviceError when
-  /// it cannot be; the next call begins from the start.
+  /// it cannot be; it is tried from the start again, 0.2 s later at the earliest.
   bool go_on(Time until);
   /// From the start again, with a reset.
   void restart();

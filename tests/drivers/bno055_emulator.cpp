@@ -97,6 +97,12 @@ void Bno055Emulator::put(int reg, double value) {
   at(reg + 1) = static_cast<std::uint8_t>(steps >> 8 & 0xff);
 }
 
+/// -1, 0 or 1.
+int Bno055Emulator::noise() {
+  noise_ = noise_ * 1103515245U + 12345U;
+  return static_cast<int>(noise_ >> 16) % 3 - 1;
+}
+
 void Bno055Emulator::measure() {
   at(0) = static_cast<std::uint8_t>(chip_id_);
   at(1) = 0xfb, at(2) = 0x32, at(3) = 0x0f, at(4) = 0x11, at(5) = 0x03, at(6) = 0x15;
@@ -122,7 +128,7 @@ void Bno055Emulator::measure() {
   const Eigen::Vector3d up = 9.81 * world_R_output.row(2).transpose();
   const Eigen::Quaterniond q(world_R_output);
   for (int i = 0; i < 3; ++i) {
-    put(0x08 + 2 * i, 100 * up[i] + (++readings_ % 3 - 1));  // an accelerometer is never at rest
+    put(0x08 + 2 * i, 100 * up[i] + noise());  // an accelerometer is never at rest
     put(0x14 + 2 * i, 16 * rate[i] * 180 / std::numbers::pi);
     put(0x22 + 2 * i, 16384 * q.vec()[i]);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <mutex>
 
@@ -87,6 +88,7 @@ class Bno055Emulator : public I2cChip {
   void switch_on();
   void store(int reg, std::uint8_t value);
   bool is_fusing() const;
+  int noise();
   void measure();
   Eigen::Matrix3d chip_R_output() const;
 
@@ -95,7 +97,8 @@ class Bno055Emulator : public I2cChip {
   Feel feel_;
   ChipFaults faults_;
   std::array<std::uint8_t, 128> registers_{};
-  int pointer_ = 0, resets_ = 0, temperature_c_ = 25, kicks_ = 0, chip_id_ = 0xa0, readings_ = 0;
+  int pointer_ = 0, resets_ = 0, temperature_c_ = 25, kicks_ = 0, chip_id_ = 0xa0;
+  std::uint32_t noise_ = 1;
   std::uint8_t calibration_ = 0;
   double kick_rad_ = 0.0, first_heading_rad_ = 0.0;
   bool frozen_ = false, begins_ = false;

@@ -26,12 +26,15 @@ using test::TrueMotion;
 using ::testing::HasSubstr;
 
 constexpr Duration kLatency = milliseconds(5);
+constexpr int kRate_hz = 50;
+constexpr std::size_t kASecond = kRate_hz;  ///< of samples
 
 class Bno055Test : public ::testing::Test {
  protected:
   Bno055Test() {
     buses_.add_bus(3);
     buses_.plug(3, 0x28, &chip_);
+    config_.rate_hz = kRate_hz;
   }
 
   Bno055& imu() {
@@ -79,6 +82,7 @@ TEST_F(Bno055Test, SpeaksASecondAfterItsStart) {
 }
 
 TEST_F(Bno055Test, GivesAHundredSamplesASecondOnAGrid) {
+  config_.rate_hz = 0;
   run(seconds(2));
   const auto samples = run(seconds(1));
   ASSERT_EQ(samples.size(), 100U);
@@ -91,6 +95,7 @@ TEST_F(Bno055Test, GivesFiftyOnASoftwareBus) {
   buses_.add_bus(4, true);
   buses_.plug(4, 0x28, &chip_);
   config_.bus = "/dev/i2c-4";
+  config_.rate_hz = 0;
   run(seconds(2));
   EXPECT_EQ(run(seconds(1)).size(), 50U);
   EXPECT_TRUE(imu().report().on_software_bus);
@@ -106,7 +111,7 @@ TEST_F(Bno055Test, TellsHowTheRobotTurns) {
   first_yaw_ = 2;
   yaw_radps_ = 1.5;
   const auto samples = run(seconds(4));
-  ASSERT_GT(samples.size(), 200U);
+  ASSERT_GT(samples.size(), 2 * kASecond);
   const auto off = [&](const ImuSample& s) {
     return wrap_angle(yaw_of(s.world_q_robot) - true_yaw_at(s.stamp + kLatency));
   };
@@ -169,7 +174,7 @@ TEST_F(Bno055Test, DropsLoneJumps) {
   yaw_radps_ = 0.5;
   run(seconds(2));
   chip_.kick(0.5, 1);
-  EXPECT_EQ(run(seconds(1)).size(), 99U);
+  EXPECT_EQ(run(seconds(1)).size(), kASecond - 1);
   EXPECT_EQ(count("jump"), 1U);
 }
 
@@ -177,11 +182,11 @@ TEST_F(Bno055Test, PutsUpWithSomeMissingAcknowledgements) {
   run(seconds(2));
   for (const int error : {EREMOTEIO, ENXIO, EIO}) {
     chip_.fail(error, 2);
-    EXPECT_EQ(run(seconds(1)).size(), 100U) << error;
+    EXPECT_EQ(run(seconds(1)).size(), kASecond) << error;
   }
   EXPECT_EQ(count("retries"), 6U);
   chip_.fail(ETIMEDOUT, 1);
-  EXPECT_GE(run(seconds(1)).size(), 99U);
+  EXPECT_GE(run(seconds(1)).size(), kASecond - 1);
   EXPECT_EQ(trouble_, "");
 }
 
@@ -193,7 +198,7 @@ TEST_F(Bno055Test, ResetsAChipThatTalksNonsense) {
     run(milliseconds(100));
     EXPECT_THAT(trouble_, HasSubstr("made no sense")) << static_cast<int>(how);
     EXPECT_FALSE(imu().report().running);
-    EXPECT_GT(run(seconds(2)).size(), 50U);
+    EXPECT_GT(run(seconds(2)).size(), kASecond / 2);
   }
   EXPECT_EQ(chip_.resets(), 5);
 }
@@ -204,11 +209,11 @@ TEST_F(Bno055Test, ResetsAChipThatStandsStillForEver) {
   run(seconds(4));
   EXPECT_THAT(trouble_, HasSubstr("same for ever"));
   EXPECT_EQ(count("frozen"), 1U);
-  EXPECT_EQ(run(seconds(2)).size(), 200U);
+  EXPECT_EQ(run(seconds(2)).size(), 2 * kASecond);
 }
 
 TEST_F(Bno055Test, LetsARobotStandStill) {
-  EXPECT_GT(run(seconds(10)).size(), 850U);
+  EXPECT_GT(run(seconds(10)).size(), 8 * kASecond);
   EXPECT_EQ(trouble_, "");
 }
 
@@ -218,10 +223,10 @@ TEST_F(Bno055Test, GoesOnWithItsHeadingAfterTheChipWasReset) {
   yaw_radps_ = 0.0;
   first_yaw_ = 0.7;
   chip_.reset();
-  run(milliseconds(1500));
+  run(seconds(2));
   EXPECT_THAT(trouble_, HasSubstr("nothing answers")) << "for 0.65 s";
   const auto after = run(seconds(1));
-  ASSERT_EQ(after.size(), 100U);
+  ASSERT_EQ(after.size(), kASecond);
   EXPECT_NEAR(wrap_angle(yaw_of(after.front().world_q_robot) - before), 0.0, 1e-3);
   EXPECT_EQ(chip_.mode(), 8);
 }
@@ -231,7 +236,7 @@ TEST_F(Bno055Test, NeedNotBeThereAtTheStart) {
   EXPECT_TRUE(run(seconds(1)).empty());
   EXPECT_THAT(trouble_, HasSubstr("imu: nothing answers at 0x28 on /dev/i2c-3"));
   buses_.plug(3, 0x28, &chip_);
-  EXPECT_GT(run(seconds(2)).size(), 50U);
+  EXPECT_GT(run(seconds(2)).size(), kASecond / 2);
 }
 
 TEST_F(Bno055Test, ComesBackAfterItWasPulled) {
@@ -240,7 +245,7 @@ TEST_F(Bno055Test, ComesBackAfterItWasPulled) {
   EXPECT_LE(run(seconds(1)).size(), 1U);
   chip_.reset();
   buses_.plug(3, 0x28, &chip_);
-  EXPECT_GT(run(seconds(3)).size(), 100U);
+  EXPECT_GT(run(seconds(3)).size(), kASecond);
 }
 
 TEST_F(Bno055Test, IsNeverHeldUpLongerThanItIsAskedTo) {
@@ -260,7 +265,7 @@ TEST_F(Bno055Test, DropsASampleThatCameTooLateToKnowItsTime) {
   const auto samples = run(seconds(1));
   EXPECT_EQ(count("late"), 1U);
   for (std::size_t i = 1; i < samples.size(); ++i)
-    EXPECT_EQ((samples[i].stamp - samples[0].stamp) % milliseconds(10), Duration(0));
+    EXPECT_EQ((samples[i].stamp - samples[0].stamp) % milliseconds(20), Duration(0));
 }
 
 TEST_F(Bno055Test, RefusesWhatIsNoBno055) {
@@ -329,7 +334,7 @@ TEST_F(Bno055ProfileTest, IsKeptOnceTheChipIsCalibratedAndTheRobotStands) {
   const auto samples = run(seconds(5));
   EXPECT_EQ(saved_, 1);
   EXPECT_EQ(bno055::read_profile(file_.value()), profile_);
-  EXPECT_GT(samples.size(), 450U) << "a short gap";
+  EXPECT_GT(samples.size(), 4 * kASecond) << "a short gap";
   EXPECT_EQ(chip_.resets(), 1);
   EXPECT_EQ(trouble_, "");
   EXPECT_TRUE(imu().report().has_profile);
@@ -367,7 +372,7 @@ TEST_F(Bno055ProfileTest, ThatIsSpoiltIsNotGivenToTheChip) {
 TEST_F(Bno055ProfileTest, ThatCannotBeSavedIsNoTrouble) {
   disk_full_ = true;
   chip_.set_calibration(3, 3, 3, 3);
-  EXPECT_GT(run(seconds(6)).size(), 450U);
+  EXPECT_GT(run(seconds(6)).size(), 4 * kASecond);
   EXPECT_EQ(count("profile-unsaved"), 1U);
   EXPECT_EQ(trouble_, "");
 }
