@@ -56,15 +56,21 @@ class Bno055Test : public ::testing::Test {
   }
   TrueMotion feel() {
     if (feels_) return feels_();
-    const double t = seconds_of(clock_.now());
-    return {Eigen::Quaterniond(Eigen::AngleAxisd(first_yaw_ + yaw_radps_ * t, Eigen::Vector3d::UnitZ())),
+    return {Eigen::Quaterniond(Eigen::AngleAxisd(true_yaw_at(clock_.now()), Eigen::Vector3d::UnitZ())),
             {0, 0, yaw_radps_}};
   }
-  double true_yaw_at(Time t) const { return first_yaw_ + yaw_radps_ * seconds_of(t); }
+  double true_yaw_at(Time t) const { return yaw_ + yaw_radps_ * to_seconds(t - turns_since_); }
+  /// From now on.
+  void turn_at(double radps) {
+    yaw_ = true_yaw_at(clock_.now());
+    turns_since_ = clock_.now();
+    yaw_radps_ = radps;
+  }
   std::uint64_t count(const char* what) { return imu().counters()[what]; }
 
   SteppedClock clock_{time_at_s(1)};
-  double first_yaw_ = 0.0, yaw_radps_ = 0.0;
+  double yaw_ = 0.0, yaw_radps_ = 0.0;
+  Time turns_since_ = clock_.now();
   std::function<TrueMotion()> feels_;
   test::Bno055Emulator chip_{[this] { return clock_.now(); }, [this] { return feel(); }};
   test::MockI2cBuses buses_;
@@ -108,8 +114,8 @@ TEST_F(Bno055Test, GivesAsManyAsItIsTold) {
 }
 
 TEST_F(Bno055Test, TellsHowTheRobotTurns) {
-  first_yaw_ = 2;
-  yaw_radps_ = 1.5;
+  yaw_ = 2;
+  turn_at(1.5);
   const auto samples = run(seconds(4));
   ASSERT_GT(samples.size(), 2 * kASecond);
   const auto off = [&](const ImuSample& s) {
@@ -171,7 +177,7 @@ TEST_F(Bno055Test, DropsLoneGarbledReadings) {
 }
 
 TEST_F(Bno055Test, DropsLoneJumps) {
-  yaw_radps_ = 0.5;
+  turn_at(0.5);
   run(seconds(2));
   chip_.kick(0.5, 1);
   EXPECT_EQ(run(seconds(1)).size(), kASecond - 1);
@@ -218,10 +224,10 @@ TEST_F(Bno055Test, LetsARobotStandStill) {
 }
 
 TEST_F(Bno055Test, GoesOnWithItsHeadingAfterTheChipWasReset) {
-  yaw_radps_ = 0.3;
+  turn_at(0.3);
   const double before = yaw_of(run(seconds(3)).back().world_q_robot);
-  yaw_radps_ = 0.0;
-  first_yaw_ = 0.7;
+  turn_at(0.0);
+  yaw_ = 0.7;
   chip_.reset();
   run(seconds(2));
   EXPECT_THAT(trouble_, HasSubstr("nothing answers")) << "for 0.65 s";
@@ -297,7 +303,7 @@ TEST_F(Bno055Test, ReportsWhatItIs) {
 
 TEST_F(Bno055Test, UsesTheCompassWhenToldTo) {
   config_.use_compass = true;
-  first_yaw_ = 1;
+  yaw_ = 1;
   const auto samples = run(seconds(2));
   ASSERT_FALSE(samples.empty());
   EXPECT_EQ(chip_.mode(), 12);
@@ -325,12 +331,11 @@ TEST_F(Bno055ProfileTest, IsKeptOnceTheChipIsCalibratedAndTheRobotStands) {
   chip_.set_profile(profile_);
   run(seconds(2));
   EXPECT_EQ(saved_, 0) << "nothing is calibrated yet";
-  yaw_radps_ = 0.5;
+  turn_at(0.5);
   chip_.set_calibration(3, 3, 3, 0);
   run(seconds(3));
   EXPECT_EQ(saved_, 0) << "the robot turns";
-  yaw_radps_ = 0.0;
-  first_yaw_ = yaw_of(run(milliseconds(20)).back().world_q_robot);
+  turn_at(0.0);
   const auto samples = run(seconds(5));
   EXPECT_EQ(saved_, 1);
   EXPECT_EQ(bno055::read_profile(file_.value()), profile_);
@@ -342,7 +347,7 @@ TEST_F(Bno055ProfileTest, IsKeptOnceTheChipIsCalibratedAndTheRobotStands) {
 
 TEST_F(Bno055ProfileTest, KeepsTheHeadingWhileItIsRead) {
   chip_.set_calibration(3, 3, 3, 3);
-  first_yaw_ = 1;
+  yaw_ = 1;
   const auto samples = run(seconds(6));
   EXPECT_EQ(saved_, 1);
   for (const ImuSample& s : samples) EXPECT_NEAR(yaw_of(s.world_q_robot), 0.0, 1e-3);
