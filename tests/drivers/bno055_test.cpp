@@ -368,7 +368,7 @@ TEST_F(Bno055ProfileTest, IsGivenToTheChipAtTheNextStart) {
 
 TEST_F(Bno055ProfileTest, ThatIsSpoiltIsNotGivenToTheChip) {
   file_ = bno055::profile_text(profile_);
-  (*file_)[12] = 'f';
+  (*file_)[12] = '0';
   run(seconds(2));
   EXPECT_EQ(chip_.profile(), bno055::Profile{});
   EXPECT_EQ(count("profile-bad"), 1U);

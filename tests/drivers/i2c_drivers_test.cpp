@@ -68,8 +68,8 @@ TEST_F(I2cDriversTest, WorkAtTheSameTime) {
     }
   });
   Bno055 imu({}, clock_);
-  const auto samples = read_imu(imu, 30);
-  EXPECT_EQ(samples.size(), 30U);
+  const auto samples = read_imu(imu, 10);
+  EXPECT_EQ(samples.size(), 10U);
   for (std::size_t i = 1; i < samples.size(); ++i) EXPECT_GT(samples[i].stamp, samples[i - 1].stamp);
   done = true;
   control.join();
