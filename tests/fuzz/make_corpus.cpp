@@ -60,8 +60,18 @@ std::string recorded() {
   return bytes.substr(kMcapMagic.size());
 }
 
+/// What the chips of drivers/ say, byte by byte.
+void write_drivers(const std::string& folder) {
+  write(folder + "/bno055/burst", std::string("\0\0\0\0\xa0\5\xe0\x10\0\0\0\0\x41\x2d\0\0\0\0\x41\x2d", 20));
+  write(folder + "/bno055/status", std::string("\x1b\xf8\x0f\0\0\5\0\0\0\x8", 10));
+  write(folder + "/bno055/profile", "bno055 1 00000000000000000000000000000000000000000000 290628dd\n");
+  write(folder + "/thunderborg/battery", std::string("\x15\1\x54\0\0\0", 6));
+  write(folder + "/thunderborg/motor", std::string("\xa\2\x80\0\0\0", 6));
+}
+
 void write_all(const std::string& folder) {
   write_access(folder);
+  write_drivers(folder);
   write(folder + "/mcap/flat", mcap({std::nullopt, 2, true, false}));
   write(folder + "/mcap/plain", mcap({"", 2, false, false}));
   write(folder + "/mcap/zstd", mcap({"zstd", 2, false, true}));

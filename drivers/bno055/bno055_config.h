@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/config_field.h"
+#include "drivers/bno055/protocol.h"
+
+namespace dynslam {
+
+/// Section [imu] of the configuration: where the BNO055 is, and how it is mounted.
+struct Bno055Config {
+  std::string bus = "/dev/i2c-3";
+  int address = 0x28;
+  std::string forward = "x";
+  std::string up = "z";
+  bool use_compass = false;
+  bool external_crystal = false;
+  double rate_hz = 0.0;
+  double latency_s = 0.005;
+  std::string calibration_file = "";
+
+  /// What is wrong with the values together, if anything.
+  std::optional<std::string> problem() const {
+    if (!bno055::axis_map(forward, up))
+      return "imu.forward, imu.up: must be two of the chip's axes at right angles, such as \"x\" and \"-z\"";
+    return std::nullopt;
+  }
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit(Field{"bus", "the I2C bus that the BNO055 is wired to, best one of its own"}, self.bus);
+    visit(Field{"address", "of the chip on it: 40, or 41 with its ADR pin high", 0x28, 0x29}, self.address);
+    visit(Field{"forward", "which axis of the chip points to the robot's front: x, -x, y, ..."},
+          self.forward);
+    visit(Field{"up", "which axis of the chip points up"}, self.up);
+    visit(Field{"use_compass", "heading by the compass, which motors and steel bend"}, self.use_compass);
+    visit(Field{"external_crystal", "the board has a 32 kHz crystal for the chip"}, self.external_crystal);
+    visit(Field{"rate_hz", "readings a second; 0: 100, or 50 on a bus by software", 0.0, 100.0},
+          self.rate_hz);
+    visit(Field{"latency_s", "how old an orientation is when it is read", 0.0, 0.1}, self.latency_s);
+    visit(Field{"calibration_file", "where the chip's calibration is kept; empty: nowhere"},
+          self.calibration_file);
+  }
+};
+
+}  // namespace dynslam
