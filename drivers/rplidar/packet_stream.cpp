@@ -62,9 +62,17 @@ void PacketStream::feed(ByteView bytes, Time read_at, std::vector<Sample>& out) 
     }
     in_step_ = true;
     at += form_.packet->size;
-    take(rest.first(form_.packet->size), read_at - byte_ * static_cast<int>(bytes_.size() - at), out);
+    take(rest.first(form_.packet->size), read_time(at, read_at), out);
   }
   bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(at));
+  read_before_ = bytes_.size();
+  before_at_ = read_at;
+}
+
+/// When the byte before `end` had come, as far as it was not read later.
+Time PacketStream::read_time(std::size_t end, Time read_at) const {
+  if (end <= read_before_) return before_at_ - byte_ * static_cast<int>(read_before_ - end);
+  return read_at - byte_ * static_cast<int>(bytes_.size() - end);
 }
 
 void PacketStream::take(ByteView packet, Time read_at, std::vector<Sample>& out) {

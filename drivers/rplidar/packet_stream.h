@@ -51,6 +51,7 @@ class PacketStream {
   bool is_witnessed(ByteView rest) const;
   std::size_t bytes_needed() const;
   void skip_byte();
+  Time read_time(std::size_t end, Time read_at) const;
   void take(ByteView packet, Time read_at, std::vector<Sample>& out);
   void take_capsule(ByteView packet, Time came_at, std::vector<Sample>& out);
   void emit_kept(ByteView next, float step_deg, std::vector<Sample>& out);
@@ -59,7 +60,9 @@ class PacketStream {
 
   StreamForm form_;
   std::vector<std::uint8_t> bytes_;
-  bool in_step_ = false;  ///< the byte before was the end of a packet
+  std::size_t read_before_ = 0;  ///< how many of them came with earlier reads,
+  Time before_at_;               ///< the last of which was then
+  bool in_step_ = false;         ///< the byte before was the end of a packet
   ArrivalClock arrivals_;
   Duration byte_{};
 

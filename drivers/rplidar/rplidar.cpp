@@ -86,7 +86,7 @@ std::optional<Scan> Rplidar::read_turn(Time until) {
   for (;;) {
     if (!ready_.empty()) {
       std::optional<Scan> scan = std::move(ready_.front());
-      ready_.pop_front();
+      ready_.erase(ready_.begin());
       return scan;
     }
     const std::size_t n = start_.talk().port().read(chunk, clock_.steady(until));

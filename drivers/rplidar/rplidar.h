@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <vector>
 
@@ -49,7 +48,7 @@ class Rplidar : public Lidar {
   std::optional<rplidar::PacketStream> stream_;  ///< while it measures
   std::optional<rplidar::TurnBuilder> builder_;
   std::vector<rplidar::Sample> samples_;
-  std::deque<Scan> ready_;
+  std::vector<Scan> ready_;   ///< oldest first
   Time packet_at_, turn_at_;  ///< the newest, or when it began to measure
   bool any_packet_ = false;
   RplidarReport past_;  ///< counts of what was measured before it began anew

@@ -116,7 +116,8 @@ bool Start::ask_info(Time until) {
     if (!payload) return false;
     portrait_.info = parse_info(*payload);
   } catch (const NoAnswer&) {
-    tried_ += (tried_.empty() ? "" : ", ") + std::to_string(ways_.front().baud);
+    const std::string baud = std::to_string(ways_.front().baud);
+    if (tried_.find(baud) == std::string::npos) tried_ += (tried_.empty() ? "" : ", ") + baud;
     talk_.close();
     ways_.erase(ways_.begin());
     if (!ways_.empty()) return go(Phase::kClosed);
