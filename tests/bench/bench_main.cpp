@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The benchmarks of what costs: drawing scans, matching them, work on whole maps, whole recordings, ticks of
-// driving, planning, turns of exploring, and the simulator.
+// driving, planning, turns of exploring, the simulator, and decoding what a lidar sends.
 //
 //   cmake --preset release && cmake --build --preset release --target dynslam_bench
 //   build/release/tests/bench/dynslam_bench
@@ -85,6 +85,7 @@ int run(int argc, char** argv) {
   register_plan_benchmarks();
   register_autopilot_benchmarks();
   register_cast_benchmarks();
+  register_rplidar_benchmarks();
   have_had_a_thread();
   KeepingReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

@@ -13,5 +13,6 @@ void register_back_end_benchmarks();
 void register_drive_benchmarks();
 void register_plan_benchmarks();
 void register_autopilot_benchmarks();
+void register_rplidar_benchmarks();
 
 }  // namespace dynslam::bench

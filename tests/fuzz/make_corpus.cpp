@@ -2,9 +2,11 @@
 #include <fstream>
 #include <iostream>
 #include <string>
+#include <vector>
 
 #include "io/ros_writer.h"
 #include "server/access/credential_book.h"
+#include "tests/drivers/rplidar_encoder.h"
 #include "tests/io/mcap_builder.h"
 
 namespace dynslam::test {
@@ -69,7 +71,34 @@ void write_drivers(const std::string& folder) {
   write(folder + "/thunderborg/motor", std::string("\xa\2\x80\0\0\0", 6));
 }
 
+/// A few packets of a kind, behind the byte that says which.
+void write_rplidar(const std::string& folder) {
+  const std::vector<double> mm(97, 2000.0), angle_deg(96, 30.0), back_deg(32, 7.0);
+  const auto put = [&](const char* name, char kind, const auto& packet_at) {
+    std::string bytes(1, kind);
+    for (int i = 0; i < 4; ++i) {
+      const PacketBytes packet = packet_at(340.0 + 10.0 * i);
+      bytes.append(packet.begin(), packet.end());
+    }
+    write(folder + "/rplidar/" + name, bytes);
+  };
+  put("standard", 0, [&](double deg) {
+    PacketBytes all;
+    for (int i = 0; i < 4; ++i) {
+      const PacketBytes node = encode_standard(i == 2, deg / 2, 1234.25);
+      all.insert(all.end(), node.begin(), node.end());
+    }
+    return all;
+  });
+  put("express", 1, [&](double deg) { return encode_express(deg, false, mm, back_deg); });
+  put("hq", 2, [&](double) { return encode_hq(angle_deg, mm, 5); });
+  put("ultra", 3, [&](double deg) { return encode_ultra(deg, false, mm); });
+  put("dense", 4, [&](double deg) { return encode_dense(deg, false, mm); });
+  put("ultra_dense", 5, [&](double deg) { return encode_ultra_dense(deg, false, mm); });
+}
+
 void write_all(const std::string& folder) {
+  write_rplidar(folder);
   write_access(folder);
   write_drivers(folder);
   write(folder + "/mcap/flat", mcap({std::nullopt, 2, true, false}));
