@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/scan.h"
 #include "drive/drive_config.h"
+#include "hardware_config.h"
 #include "robot/recorder_config.h"
 #include "server/access/access_config.h"
 #include "server/server_config.h"
@@ -54,6 +55,8 @@ struct Config {
   NavigationConfig navigation;
   ExplorationConfig exploration;
   PlannerConfig planner;
+  HardwareConfig hardware;
+  StateConfig state;
 
   /// Calls `visit(name of the table, struct with fields)` for each table.
   template <class Self, class Visit>
@@ -68,6 +71,8 @@ struct Config {
     visit(std::string_view("navigation"), self.navigation);
     visit(std::string_view("exploration"), self.exploration);
     visit(std::string_view("planner"), self.planner);
+    HardwareConfig::sections(self.hardware, visit);
+    visit(std::string_view("state"), self.state);
   }
 };
 

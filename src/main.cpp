@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The command line. Exit code 0: fine, 1: the work failed, 2: usage or unreadable input.
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -12,7 +14,9 @@
 #include <spdlog/spdlog.h>
 
 #include "config.h"
+#include "probe_command.h"
 #include "replay_command.h"
+#include "run_command.h"
 #include "sim_command.h"
 
 namespace {
@@ -90,6 +94,14 @@ int run(int argc, char** argv) {
       ->allow_extra_args(false);
   common.add_to(*sim, "--config");
 
+  CLI::App* robot = app.add_subcommand("run", "the robot, on its own hardware");
+  common.add_to(*robot, "--config");
+
+  dynslam::ProbeOptions probe_options;
+  CLI::App* probe = app.add_subcommand("probe", "what hardware is there, and what to do about it");
+  probe->add_flag("--spin-motors", probe_options.spin_motors, "turn the wheels a little, after asking");
+  common.add_to(*probe, "--config");
+
   CLI::App* check = app.add_subcommand(
       "check-config", "read a configuration file and print all settings as they are in force");
   common.add_to(*check, "file");
@@ -106,6 +118,8 @@ int run(int argc, char** argv) {
     std::fputs(config_reference(common.load()).c_str(), stdout);
     return 0;
   }
+  if (robot->parsed()) return dynslam::run_robot(common.load());
+  if (probe->parsed()) return dynslam::run_probe(probe_options, common.load(), std::cin, std::cout);
   if (sim->parsed()) return dynslam::run_sim(sim_options, common.load());
   return dynslam::run_replay(options, common.load());
 }
@@ -113,6 +127,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  setenv("LIBCAMERA_LOG_LEVELS", "*:ERROR", 0);  // it writes to stderr by itself
   spdlog::set_default_logger(spdlog::stderr_color_mt("dynslam"));
   spdlog::set_pattern("%n: %^%v%$");
   try {

@@ -19,7 +19,8 @@ struct Bno055Config {
   bool external_crystal = false;
   double rate_hz = 0.0;
   double latency_s = 0.005;
-  std::string calibration_file = "";
+
+  bool has_imu() const { return bus != "none"; }
 
   /// What is wrong with the values together, if anything.
   std::optional<std::string> problem() const {
@@ -30,7 +31,8 @@ struct Bno055Config {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(Field{"bus", "the I2C bus that the BNO055 is wired to, best one of its own"}, self.bus);
+    visit(Field{"bus", "the I2C bus that the BNO055 is wired to, best one of its own; none: there is no IMU"},
+          self.bus);
     visit(Field{"address", "of the chip on it: 40, or 41 with its ADR pin high", 0x28, 0x29}, self.address);
     visit(Field{"forward", "which axis of the chip points to the robot's front: x, -x, y, ..."},
           self.forward);
@@ -40,8 +42,6 @@ struct Bno055Config {
     visit(Field{"rate_hz", "readings a second; 0: 100, or 50 on a bus by software", 0.0, 100.0},
           self.rate_hz);
     visit(Field{"latency_s", "how old an orientation is when it is read", 0.0, 0.1}, self.latency_s);
-    visit(Field{"calibration_file", "where the chip's calibration is kept; empty: nowhere"},
-          self.calibration_file);
   }
 };
 

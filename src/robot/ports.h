@@ -96,6 +96,7 @@ struct Ports {
   Latest<RecordingState> recording;
   Latest<AutopilotStatus> autopilot;
   Latest<DeviceHealth> lidar_health, imu_health, motors_health, camera_health, pins_health;
+  Latest<DeviceHealth> computer_health;  ///< of the computer itself: its supply, its heat
 };
 
 }  // namespace dynslam

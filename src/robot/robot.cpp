@@ -4,16 +4,21 @@
 #include <exception>
 #include <utility>
 
+#include <pthread.h>
+#include <sched.h>
+
 namespace dynslam {
 namespace {
 
 constexpr Duration kNobodyWatches = std::chrono::milliseconds(100);
 constexpr std::chrono::seconds kDiskPatience{5};
+constexpr int kControlPriority = 20;
 
 }  // namespace
 
 Robot::Robot(Devices devices, const RobotConfig& config, const Clock& clock)
     : devices_(std::move(devices)),
+      control_first_(config.control_first),
       clock_(clock),
       slam_(config.slam),
       slam_stage_(slam_, ports_, clock),
@@ -91,8 +96,16 @@ void Robot::start_thread(const char* name, std::function<void()> turn) {
   threads_.push_back({std::thread(std::move(run)), std::move(end), {}});
 }
 
+/// Without the right to it the thread is one among others.
+void Robot::go_first() {
+  sched_param param{};
+  param.sched_priority = kControlPriority;
+  pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
+}
+
 /// Ticks until the end, and stands still then, whatever it is that ends it.
 void Robot::run_control() {
+  if (control_first_) go_first();
   try {
     while (!stop_.wait(clock_.steady(control_.due()))) control_turn();
   } catch (...) {

@@ -28,6 +28,7 @@ struct RobotConfig {
   LidarMount lidar_mount;
   RecorderConfig recorder;
   RecordingAbout recording_about;
+  bool control_first = false;  ///< the control's thread goes before all others, where that is allowed
 };
 
 /// The whole robot: its devices, and the stages between them and the ports (design, section 6). Runs in one
@@ -70,6 +71,7 @@ class Robot {
 
  private:
   void start_thread(const char* name, std::function<void()> turn);
+  void go_first();
   void run_control();
   void control_turn();
   void run_recorder();
@@ -77,6 +79,7 @@ class Robot {
   void poll_camera();
 
   Devices devices_;
+  bool control_first_;
   const Clock& clock_;
   Ports ports_;
   StopSignal stop_;

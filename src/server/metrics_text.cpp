@@ -77,11 +77,9 @@ void write_robot(const Ports& ports, MetricsWriter& out) {
 }
 
 void write_devices(const Ports& ports, MetricsWriter& out) {
-  const std::pair<const char*, const Latest<DeviceHealth>*> devices[] = {{"lidar", &ports.lidar_health},
-                                                                         {"imu", &ports.imu_health},
-                                                                         {"motors", &ports.motors_health},
-                                                                         {"camera", &ports.camera_health},
-                                                                         {"pins", &ports.pins_health}};
+  const std::pair<const char*, const Latest<DeviceHealth>*> devices[] = {
+      {"lidar", &ports.lidar_health},   {"imu", &ports.imu_health},   {"motors", &ports.motors_health},
+      {"camera", &ports.camera_health}, {"pins", &ports.pins_health}, {"computer", &ports.computer_health}};
   const auto write = [&](const char* name, const char* type, const char* help, auto of) {
     out.begin(name, type, help);
     for (const auto& [device, health] : devices)

@@ -262,6 +262,7 @@ json devices_json(const Ports& ports) {
   add("motors", ports.motors_health);
   add("camera", ports.camera_health);
   add("pins", ports.pins_health);
+  add("computer", ports.computer_health);
   json counters = json::object();
   for (const auto* part : {&ports.slam_counters, &ports.graph_counters, &ports.drive_counters})
     if (const auto counted = part->get().value) counters.update(counters_json(*counted));

@@ -129,7 +129,7 @@ void update_after_scan(benchmark::State& state) {
 
 void find_all_frontiers(benchmark::State& state) {
   FrontierMap map;
-  map.update(floor_grid().snapshot());
+  map.update({}, floor_grid().snapshot());
   std::size_t found = 0;
   for (auto _ : state) found = map.frontiers().size();
   state.counters["cells"] = static_cast<double>(map.cells().size());

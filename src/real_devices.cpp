@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "real_devices.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "drivers/rplidar/rplidar.h"
+#include "io/safe_file.h"
+#ifdef DYNSLAM_HAS_BNO055
+#include "drivers/bno055/bno055.h"
+#endif
+#ifdef DYNSLAM_HAS_THUNDERBORG
+#include "drivers/thunderborg/thunderborg.h"
+#endif
+#ifdef DYNSLAM_HAS_CAMERA
+#include "drivers/camera/live_camera.h"
+#endif
+#ifdef DYNSLAM_HAS_GPIO
+#include "drivers/gpio/gpio_pins.h"
+#include "drivers/gpio/output_pin.h"
+#endif
+
+namespace dynslam {
+namespace {
+
+[[maybe_unused]] constexpr const char* kNotBuiltIn = ": this program was built without its driver";
+
+/// Takes the place of a device whose driver is not there.
+class NoMotors : public Motors {
+ public:
+  void drive(const WheelPower&) override { throw DeviceError(std::string("motor board") + kNotBuiltIn); }
+  MotorState read() override { throw DeviceError(std::string("motor board") + kNotBuiltIn); }
+};
+
+[[maybe_unused]] constexpr const char* kProfileFile = "bno055-calibration";
+
+#ifdef DYNSLAM_HAS_BNO055
+ProfileStore profile_store(const std::string& folder) {
+  if (folder.empty()) return {};
+  ProfileStore store;
+  store.load = [folder]() -> std::optional<std::string> {
+    std::ifstream in(std::filesystem::path(folder) / "imu" / kProfileFile, std::ios::binary);
+    if (!in) return std::nullopt;
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  store.save = [folder](const std::string& text) {
+    OutputFolder out(folder + "/imu", 0600);
+    out.stage(kProfileFile, text);
+    out.commit();
+  };
+  return store;
+}
+#endif
+
+#ifdef DYNSLAM_HAS_GPIO
+/// A lidar whose motor has a line of its own: on while this lives.
+class SwitchedLidar : public Lidar {
+ public:
+  SwitchedLidar(std::unique_ptr<Lidar> lidar, std::unique_ptr<OutputPin> motor)
+      : motor_(std::move(motor)), lidar_(std::move(lidar)) {}
+
+  std::optional<Scan> next(Time until) override {
+    motor_->set(true);
+    return lidar_->next(until);
+  }
+
+ private:
+  std::unique_ptr<OutputPin> motor_;
+  std::unique_ptr<Lidar> lidar_;
+};
+#endif
+
+std::unique_ptr<Lidar> make_lidar(const Config& config, const Clock& clock) {
+  std::unique_ptr<Lidar> lidar =
+      std::make_unique<Rplidar>(config.hardware.rplidar, config.lidar.mount(), clock);
+#ifdef DYNSLAM_HAS_GPIO
+  if (auto motor = make_lidar_motor_pin(config.hardware.gpio))
+    return std::make_unique<SwitchedLidar>(std::move(lidar), std::move(motor));
+#endif
+  return lidar;
+}
+
+}  // namespace
+
+Devices make_real_devices(const Config& config, const Clock& clock) {
+  const HardwareConfig& hardware = config.hardware;
+  Devices devices;
+  devices.lidar = make_lidar(config, clock);
+#ifdef DYNSLAM_HAS_BNO055
+  if (hardware.imu.has_imu())
+    devices.imu = std::make_unique<Bno055>(hardware.imu, clock, profile_store(config.state.folder));
+#endif
+#ifdef DYNSLAM_HAS_THUNDERBORG
+  devices.motors = std::make_unique<ThunderBorg>(hardware.motors, clock);
+#else
+  devices.motors = std::make_unique<NoMotors>();
+#endif
+#ifdef DYNSLAM_HAS_CAMERA
+  if (hardware.camera.has_camera()) devices.camera = std::make_unique<LiveCamera>(hardware.camera, clock);
+#endif
+#ifdef DYNSLAM_HAS_GPIO
+  if (hardware.gpio.has_pins()) devices.pins = std::make_unique<GpioPins>(hardware.gpio, clock);
+#endif
+  return devices;
+}
+
+}  // namespace dynslam
