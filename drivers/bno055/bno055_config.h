@@ -5,7 +5,6 @@
 #include <string>
 
 #include "base/config_field.h"
-#include "drivers/bno055/protocol.h"
 
 namespace dynslam {
 
@@ -24,7 +23,7 @@ struct Bno055Config {
 
   /// What is wrong with the values together, if anything.
   std::optional<std::string> problem() const {
-    if (!bno055::axis_map(forward, up))
+    if (axis_of(forward) == 0 || axis_of(up) == 0 || axis_of(forward) == axis_of(up))
       return "imu.forward, imu.up: must be two of the chip's axes at right angles, such as \"x\" and \"-z\"";
     return std::nullopt;
   }
@@ -42,6 +41,14 @@ struct Bno055Config {
     visit(Field{"rate_hz", "readings a second; 0: 100, or 50 on a bus by software", 0.0, 100.0},
           self.rate_hz);
     visit(Field{"latency_s", "how old an orientation is when it is read", 0.0, 0.1}, self.latency_s);
+  }
+
+ private:
+  /// Its letter, whatever its sign; 0: it is none.
+  static char axis_of(const std::string& text) {
+    const bool is_signed = text.size() == 2 && text[0] == '-';
+    const char axis = text.size() == 1 || is_signed ? text.back() : '\0';
+    return axis == 'x' || axis == 'y' || axis == 'z' ? axis : '\0';
   }
 };
 

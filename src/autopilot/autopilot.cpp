@@ -235,6 +235,12 @@ void Autopilot::arrived(Time now, const std::string& remark) {
 }
 
 void Autopilot::failed(Time now, const Navigator::Report& report) {
+  // What it felt was a guess: it may not shut the only way.
+  if (!felt_.outlines_map().empty()) {
+    felt_.clear();
+    keep_out();
+    if (!explores()) return;
+  }
   if (explores()) return explorer_.failed(now);
   if (const auto* patrol = std::get_if<Patrol>(&errand_)) {
     ++stop_;

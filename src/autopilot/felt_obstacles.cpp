@@ -7,9 +7,9 @@
 namespace dynslam {
 namespace {
 
-constexpr Duration kRemembers = std::chrono::minutes(30);
+constexpr Duration kRemembers = std::chrono::minutes(10);
 constexpr std::size_t kMost = 64;
-constexpr double kRadius_m = 0.12;
+constexpr double kRadius_m = 0.08;
 constexpr int kCorners = 8;
 
 std::vector<Vector2> outline_around(const Vector2& middle) {

@@ -7,8 +7,8 @@
 namespace dynslam {
 namespace {
 
-constexpr double kSpeed_mps = 0.1;
-constexpr double kTurn_radps = 0.4;
+constexpr double kSpeed_mps = 0.06;
+constexpr double kTurn_radps = 0.3;
 
 }  // namespace
 
