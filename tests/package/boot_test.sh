@@ -21,6 +21,8 @@ trap finish EXIT
 
 inside() { nsenter -t "$leader" -a env -i LC_ALL=C DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }
 value() { inside systemctl show --property "$1" --value $unit; }
+# What must be true now, in words, and the command that says so.
+check() { within 0 "$@"; }
 # Waits until a command succeeds, so many seconds at most.
 within() {
   local seconds=$1 what=$2 end
@@ -37,6 +39,9 @@ within() {
   echo "ok: $what"
 }
 is() { [[ $(value "$1") == "$2" ]]; }
+real_time_threads() {
+  [[ $(inside sh -c 'for task in /proc/'"$pid"'/task/*; do chrt --pid "${task##*/}"; done' | grep -c SCHED_FIFO) == "$1" ]]
+}
 other_process() { is ActiveState active && ! is MainPID "$pid"; }
 
 booted() {
@@ -56,17 +61,22 @@ if ! inside dynslam run --help >/dev/null 2>&1; then
 fi
 inside systemctl enable --now --quiet $unit
 within 60 "the service says that it is ready" is ActiveState active
-threads=$(inside ps -L -o cls= -p "$(value MainPID)" | grep -c FF || true)
-echo "threads with real-time scheduling: $threads"
 pid=$(value MainPID)
-inside kill -KILL "$pid"
+# Machines that are themselves within another may not be allowed to allow this.
+if prlimit --rtprio=50 true 2>/dev/null; then
+  check "one thread is a real-time one" real_time_threads 1
+else
+  echo "skipped: real-time scheduling, which this machine does not allow"
+fi
+inside systemctl kill --signal=KILL $unit
 within 60 "killed, it comes back" other_process
 pid=$(value MainPID)
-inside kill -STOP "$pid"
+inside systemctl kill --signal=STOP $unit
 within 60 "hung, the watchdog ends it and it comes back" other_process
-is Result success || is NRestarts 2
 pid=$(value MainPID)
-inside sh -c 'dpkg -i --force-confdef --force-confold /root/newer.deb' >/dev/null 2>&1
+inside dpkg -i --force-confdef --force-confold /root/newer.deb >/dev/null 2>&1
 within 60 "upgraded while it runs, it comes back" other_process
 inside systemctl stop $unit
-within 20 "it ends well when asked to" is Result success
+check "it ends well when asked to" is Result success
+check "it writes to its own folders alone" inside sh -c '! find /etc /usr /home /root /srv /var -xdev -newer /root/newer.deb \
+  -user dynslam ! -path "/var/lib/dynslam*" | grep .'
