@@ -28,7 +28,7 @@ cpu=
 while [ $# -gt 0 ]; do
   [ $# -ge 2 ] || usage
   case $1 in
-    --debian) debian=$2 from=$2 ;;
+    --debian) debian=$2 ;;
     --sysroot) from=$(cd "$2" && pwd) ;;
     --from) from=$2: ;;
     --cpu) cpu=$2 ;;
@@ -85,7 +85,7 @@ case $job in
     run_tests "$build"
     ;;
   package)
-    quietly there env DEB_HOST_ARCH=arm64 "DPKG_ADMINDIR=$sysroot/var/lib/dpkg" cmake --build "$build" --target package
+    quietly there env DEB_HOST_ARCH=arm64 "DYNSLAM_SYSROOT=$sysroot" "PATH=$root/toolchain/cross:$PATH" cmake --build "$build" --target package
     ls "$build"/dynslam*_arm64.*deb
     ;;
 esac

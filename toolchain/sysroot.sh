@@ -20,7 +20,7 @@ libraries=usr/lib/aarch64-linux-gnu
 database=$sysroot/var/lib/dpkg
 
 # dpkg-shlibdeps asks for files where they lie here.
-move_lists() { sed -i -e 's#^\.##' -e 's#/$##' -e 's#^/lib/#/usr/lib/#' -e "s#^/#$sysroot/#" "$database/info/"*.list; }
+move_lists() { sed -i -e 's#^\.##' -e 's#/$##' -e '/^$/d' -e 's#^/lib/#/usr/lib/#' -e "s#^/#$sysroot/#" "$database/info/"*.list; }
 
 # What is extracted only, dpkg knows nothing of; $1 has the packages.
 record_packages() {
