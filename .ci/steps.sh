@@ -150,7 +150,7 @@ step_format() {
 
 step_scripts() {
   need shellcheck
-  git grep -lz -E '^#!/bin/(ba)?sh' -- .ci toolchain | xargs -0 shellcheck --external-sources
+  git grep -lz -E '^#!/bin/(ba)?sh' -- .ci package systemd tests toolchain | xargs -0 shellcheck --external-sources
 }
 
 step_tsan() {

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Boots a Debian that a package lies in, in a container, and starts, kills, hangs and upgrades the service. Takes root.
 # Usage: tests/package/boot_test.sh ROOT DEB, DEB within ROOT's /tmp beside newer.deb
+# shellcheck disable=SC2016 # for the inner shells
 set -euo pipefail
 root=$1 name=$2
 unit=dynslam.service
@@ -45,7 +46,7 @@ real_time_threads() {
 other_process() { is ActiveState active && ! is MainPID "$pid"; }
 
 booted() {
-  leader=$(pgrep -P "$(pgrep -P $container -f 'systemd-nspawn' | head -1)" 2>/dev/null || pgrep -P $container | head -1)
+  leader=$(pgrep -P $container | head -1)
   [[ $leader ]] && inside systemctl is-system-running --wait | grep -Eq 'running|degraded'
 }
 end=$((SECONDS + 120))

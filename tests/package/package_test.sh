@@ -3,6 +3,7 @@
 # Installs, upgrades, removes and purges a package in a new Debian, and looks at what is there each time; boots it, too,
 # and kills and hangs the service. Takes root.
 # Usage: tests/package/package_test.sh DEB [SUITE]
+# shellcheck disable=SC2016 # for the inner shells
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 # shellcheck source=toolchain/quiet.sh
