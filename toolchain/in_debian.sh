@@ -31,8 +31,11 @@ if [ ! -e "$tree/complete" ]; then
   $as_root touch "$tree/complete"
 fi
 # The page's packages are fetched outside, by npm, which is large.
-[ -e "$root/web/node_modules/.package-lock.json" ] ||
+lock=$root/web/package-lock.json
+fetched=$root/web/node_modules/.package-lock.json
+if [ ! -e "$fetched" ] || [ "$(find "$lock" -newer "$fetched")" ]; then
   quietly npm --prefix "$root/web" ci --omit=dev --no-audit --no-fund --loglevel=error
+fi
 # shellcheck disable=SC2016 # for the inner shell
 exec $as_root unshare --mount sh -c '
   mount --bind "$1" "$2$1"
