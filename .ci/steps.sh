@@ -237,7 +237,8 @@ step_debian13() { fresh_debian trixie; }
 
 step_package() {
   [[ $(id -u) == 0 ]] || skip "making a Debian root and entering it takes root"
-  need ccache mmdebstrap systemd-container lintian
+  need ccache mmdebstrap systemd-container lintian libnss3-tools
+  command -v chromium >/dev/null || need chromium fonts-dejavu-core
   toolchain/host.sh build
   quietly cmake --build build/release --target package
   tests/package/package_test.sh build/release/dynslam_*.deb

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Boots a Debian that a package lies in, in a container, and starts, kills, hangs and upgrades the service. Takes root.
+# Boots a Debian that a package lies in, in a container, looks at its page over HTTPS with a real browser, and starts,
+# kills, hangs and upgrades the service. Takes root.
 # Usage: tests/package/boot_test.sh ROOT DEB, DEB within ROOT's /tmp beside newer.deb
 # shellcheck disable=SC2016 # for the inner shells
 set -euo pipefail
@@ -9,16 +10,17 @@ unit=dynslam.service
 
 # Its /run is the container's, as systemd-nspawn leaves traces in it.
 cp "$root/tmp/$name" "$root/tmp/newer.deb" "$root/root/"
-unshare --mount sh -c 'mount -t tmpfs tmpfs /run && exec systemd-nspawn --quiet --directory "$1" --boot \
+unshare --mount sh -c 'mount -t tmpfs tmpfs /run && exec systemd-nspawn --quiet --directory "$1" --boot --hostname=rover \
   --private-network --register=no --keep-unit --console=pipe --link-journal=no' sh "$root" </dev/null >"$root.console" 2>&1 &
 container=$!
 leader=
 finish() {
   [[ ! $leader ]] || nsenter -t "$leader" -a systemctl poweroff --no-wall >/dev/null 2>&1 || true
   timeout 30 tail --pid=$container -f /dev/null || kill -KILL $container
-  rm -f "$root.console"
+  rm -rf "$root.console" "$root.home"
 }
 trap finish EXIT
+trap 'echo "failed in line $LINENO" >&2' ERR
 
 inside() { nsenter -t "$leader" -a env -i LC_ALL=C DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }
 value() { inside systemctl show --property "$1" --value $unit; }
@@ -39,6 +41,7 @@ within() {
   done
   echo "ok: $what"
 }
+not() { ! "$@"; }
 is() { [[ $(value "$1") == "$2" ]]; }
 real_time_threads() {
   [[ $(inside sh -c 'for task in /proc/'"$pid"'/task/*; do chrt --pid "${task##*/}"; done' | grep -c SCHED_FIFO) == "$1" ]]
@@ -55,12 +58,34 @@ until booted; do
   sleep 1
 done
 
+# A browser that trusts the robot's authority, and where a name is looked up that only the local network would know.
+browse() {
+  nsenter -t "$leader" -n env HOME="$root.home" chromium --headless=new --no-sandbox --disable-gpu \
+    --host-resolver-rules='MAP rover.local 127.0.0.1' --dump-dom "$1" | grep -q '<title>dynslam'
+}
+test_https() {
+  inside systemctl start dynslam-tls.service
+  inside systemd-run --quiet --unit=page dynslam sim --port 8080
+  within 20 "the simulated robot serves its page" nsenter -t "$leader" -n curl -s http://127.0.0.1:8080/
+  mkdir -p "$root.home/.pki/nssdb"
+  certutil -d "sql:$root.home/.pki/nssdb" -N --empty-password
+  check "a browser does not trust an authority that it does not know" not browse https://rover.local/
+  certutil -d "sql:$root.home/.pki/nssdb" -A -t C,, -n rover -i "$root/var/lib/private/dynslam-tls/rover.pem"
+  within 20 "then it shows the page by the robot's name" browse https://rover.local/
+  check "and by its address" browse https://127.0.0.1/
+  inside systemctl reload dynslam-tls.service
+  check "and after a new certificate" browse https://rover.local/
+  inside systemctl stop page.service dynslam-tls.service
+}
+
 inside dpkg -i "/root/$name" >/dev/null
-if ! inside dynslam run --help >/dev/null 2>&1; then
+test_https
+if ! inside dynslam --help | grep -q '^  run '; then
   echo "skipped: this dynslam has no 'run' for the service to start"
   exit 0
 fi
-inside systemctl enable --now --quiet $unit
+inside systemctl enable --quiet $unit
+inside systemctl start $unit || true
 within 60 "the service says that it is ready" is ActiveState active
 pid=$(value MainPID)
 # Machines that are themselves within another may not be allowed to allow this.

@@ -49,7 +49,7 @@ make_newer() {
 }
 
 test_install() {
-  quietly mmdebstrap --variant=minbase --include=systemd-sysv,udev "$suite" "$root" "$("$top/toolchain/mirror.sh")"
+  quietly mmdebstrap --variant=minbase --include=systemd-sysv,udev,stunnel4 "$suite" "$root" "$("$top/toolchain/mirror.sh")"
   cp "$deb" "$root/tmp/$name"
   make_newer
   quietly inside apt-get update
