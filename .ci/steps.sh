@@ -237,7 +237,7 @@ step_debian13() { fresh_debian trixie; }
 
 step_package() {
   [[ $(id -u) == 0 ]] || skip "making a Debian root and entering it takes root"
-  need ccache mmdebstrap systemd-container lintian libnss3-tools
+  need ccache dpkg-dev file mmdebstrap systemd-container lintian libnss3-tools
   command -v chromium >/dev/null || need chromium fonts-dejavu-core
   toolchain/host.sh build
   quietly cmake --build build/release --target package

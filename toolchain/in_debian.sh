@@ -24,7 +24,7 @@ if [ ! -e "$tree/complete" ]; then
   say "making a tree of Debian $release"
   $as_root rm -rf --one-file-system "$tree"
   quietly $as_root mmdebstrap --variant=minbase \
-    --include=cmake,ninja-build,pkg-config,crossbuild-essential-arm64,nodejs,ccache,gzip \
+    --include=cmake,ninja-build,pkg-config,crossbuild-essential-arm64,nodejs,ccache,dpkg-dev,file \
     "$suite" "$tree" "$("$root/toolchain/mirror.sh")"
   $as_root mkdir -p "$tree$root"
   $as_root cp /usr/bin/qemu-aarch64-static "$tree/usr/bin/"

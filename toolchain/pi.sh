@@ -29,7 +29,7 @@ while [ $# -gt 0 ]; do
   [ $# -ge 2 ] || usage
   case $1 in
     --debian) debian=$2 ;;
-    --sysroot) from=$(cd "$2" && pwd) ;;
+    --sysroot) from=$(cd "$2" 2>/dev/null && pwd) || refuse "there is no folder $2" ;;
     --from) from=$2: ;;
     --cpu) cpu=$2 ;;
     *) usage ;;
@@ -50,19 +50,21 @@ export CTEST_PARALLEL_LEVEL="${CTEST_PARALLEL_LEVEL:-$CMAKE_BUILD_PARALLEL_LEVEL
 # shellcheck source=toolchain/quiet.sh
 . "$root/toolchain/quiet.sh"
 
-"$root/toolchain/install.sh" cmake ninja-build nodejs npm pkg-config crossbuild-essential-arm64 mmdebstrap qemu-user-static
+"$root/toolchain/install.sh" cmake ninja-build nodejs npm pkg-config crossbuild-essential-arm64 dpkg-dev file \
+  mmdebstrap qemu-user-static
+of=$from
 case $from in
-  12 | 13) sysroot=$root/build/sysroot-arm64-$from ;;
+  12 | 13) ;;
   *)
     "$root/toolchain/install.sh" rsync openssh-client
-    sysroot=$root/build/sysroot-arm64-pi
+    of=pi
     ;;
 esac
+sysroot=$root/build/sysroot-arm64-$of
+build=$root/build/arm64-$of${cpu:+-$cpu}
 "$root/toolchain/sysroot.sh" "$sysroot" "$from"
-[ -e "$sysroot/usr/lib/ld-linux-aarch64.so.1" ] || [ -e "$sysroot/lib/ld-linux-aarch64.so.1" ] ||
-  refuse "$from has no 64-bit system; dynslam does not run on a 32-bit one"
+[ -e "$sysroot/usr/lib/ld-linux-aarch64.so.1" ] || refuse "$from has no 64-bit system; dynslam does not run on a 32-bit one"
 debian=$(cat "$sysroot/release")
-build=$root/build/arm64-$debian${cpu:+-$cpu}
 
 # Runs a command where that release's compiler is.
 there() {
@@ -85,7 +87,8 @@ case $job in
     run_tests "$build"
     ;;
   package)
-    quietly there env DEB_HOST_ARCH=arm64 "DYNSLAM_SYSROOT=$sysroot" "PATH=$root/toolchain/cross:$PATH" cmake --build "$build" --target package
+    quietly there env DEB_HOST_ARCH=arm64 "DYNSLAM_SYSROOT=$sysroot" "PATH=$root/toolchain/cross:$PATH" \
+      cmake --build "$build" --target package
     ls "$build"/dynslam*_arm64.*deb
     ;;
 esac
