@@ -42,5 +42,5 @@ exec $as_root unshare --mount sh -c '
   mount -t proc proc "$2/proc"
   tree=$2
   shift 2
-  exec chroot "$tree" "$@"' sh "$root" "$tree" env "CMAKE_BUILD_PARALLEL_LEVEL=$CMAKE_BUILD_PARALLEL_LEVEL" \
+  exec chroot "$tree" "$@"' sh "$root" "$tree" env "CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}" \
   "CCACHE_DIR=$root/build/ccache-$release" "$@"
