@@ -150,7 +150,7 @@ step_format() {
 
 step_scripts() {
   need shellcheck
-  git grep -lz -E '^#!/bin/(ba)?sh' -- .ci toolchain | xargs -0 shellcheck --external-sources
+  git grep -lz -E '^#!/bin/(ba)?sh' -- .ci package systemd tests toolchain | xargs -0 shellcheck --external-sources
 }
 
 step_tsan() {
@@ -235,12 +235,33 @@ fresh_debian() {
 step_debian12() { fresh_debian bookworm; }
 step_debian13() { fresh_debian trixie; }
 
+step_package() {
+  [[ $(id -u) == 0 ]] || skip "making a Debian root and entering it takes root"
+  need ccache dpkg-dev file mmdebstrap systemd-container lintian libnss3-tools
+  command -v chromium >/dev/null || need chromium fonts-dejavu-core
+  toolchain/host.sh build
+  quietly cmake --build build/release --target package
+  tests/package/package_test.sh build/release/dynslam_*.deb
+}
+
 step_arm64() {
   need_to_build
   toolchain/pi.sh test
+  local debian build
+  debian=$(. /etc/os-release && echo "$VERSION_ID")
+  build=build/arm64-$debian
   out=$(mktemp -d)
   trap 'rm -rf "$out"' EXIT
-  qemu-aarch64-static -L build/sysroot-arm64 build/arm64/src/dynslam replay "$recording" \
+  qemu-aarch64-static -L "build/sysroot-arm64-$debian" "$build/src/dynslam" replay "$recording" \
     --set slam.trusted_range_m=30 --out "$out" --quiet
   fingerprint "$out"
+  toolchain/pi.sh package
+  tests/package/content_test.sh "$build"/dynslam_*.deb
+}
+
+step_arm64d13() {
+  [[ $(id -u) == 0 ]] || skip "making a Debian root and entering it takes root"
+  need ccache
+  toolchain/pi.sh package --debian 13
+  tests/package/content_test.sh build/arm64-13/dynslam_*.deb
 }
