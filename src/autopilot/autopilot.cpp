@@ -16,7 +16,7 @@ struct Overloaded : Cases... {
 template <class... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
-constexpr double kPatienceAmongMany_s = 4.0;
+constexpr double kPatienceAmongMany_s = 4.0, kPatienceForOne_s = 7.0;
 constexpr Duration kBacksOff = std::chrono::milliseconds(2200);
 constexpr Duration kTouchesCountFor = std::chrono::minutes(1);
 
@@ -196,15 +196,15 @@ bool Autopilot::explore(Time now, const Vector2& robot_map) {
   }
   if (!explorer_.aim()) {
     navigator_.give_up();
+    status_.goal.reset();
     status_.reason =
         explorer_.is_over() ? "everything within reach is mapped" : "looking whether all is mapped";
     return false;
   }
-  // There is enough to do elsewhere meanwhile.
+  // There is enough to do elsewhere meanwhile, and what is left alone is tried again.
   const bool among_many = explorer_.places().size() > 1;
   if (is_new)
-    set_out_to({explorer_.aim()->stand_map}, false,
-               among_many ? std::optional(kPatienceAmongMany_s) : std::nullopt);
+    set_out_to({explorer_.aim()->stand_map}, false, among_many ? kPatienceAmongMany_s : kPatienceForOne_s);
   return true;
 }
 
