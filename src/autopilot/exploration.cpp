@@ -8,8 +8,6 @@
 namespace dynslam {
 namespace {
 
-/// What lies behind a narrower gap is no room.
-constexpr double kDoor_m = 0.6;
 /// Whether a door has opened is looked at when all else is done.
 constexpr double kShutOffCost_m = 1000.0;
 /// So many history cells are told of: the first of them is what matters.

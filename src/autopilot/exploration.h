@@ -46,6 +46,9 @@ struct Reachability {
   std::function<bool()> look_farther = [] { return false; };
 };
 
+/// What lies behind a narrower gap than a door is no room.
+inline constexpr double kDoor_m = 0.6;
+
 /// Frontiers that the last choice left out.
 struct LeftOut {
   std::size_t waiting = 0;       ///< tried in vain, to be tried again

@@ -20,7 +20,6 @@ constexpr Duration kWayFree = std::chrono::seconds(20);
 constexpr double kSeenFrom_m = 0.8;
 /// To where a shut door is looked at from, at most, from what lies behind it.
 constexpr double kBeforeDoor_m = 3.0;
-constexpr double kDoor_m = 0.6;
 constexpr double kNoWay_m = 1e6;
 constexpr std::size_t kMostRemembered = 1000;
 /// Routes are looked for within so far of the robot first; a map with longer ones than the second is looked
