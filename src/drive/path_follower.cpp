@@ -75,6 +75,7 @@ void PathFollower::follow(const DriveTask& task) {
   route_ = std::move(route);
   new_route_ = true;
   progress_m_ = 0.0;
+  backed_m_ = backs_until_m_ = 0.0;
   stuck_ = false;
   if (now_) anchor_at_ = followed_at_ = *now_;
   if (!same_goal) at_goal_ = arrived_ = false;
@@ -141,6 +142,7 @@ void PathFollower::estimate(const FollowInputs& in) {
       pose_ = interpolate(expected, in.map_T_robot, kNewPoseShare);
   }
   moved_m_ = (pose_.translation() - before.translation()).norm();
+  if (passed_s > 0.0 && passed_s <= kLongestGap_s) backed_m_ += std::max(0.0, -last_.v_mps) * passed_s;
   if (!turned_at_ || in.now < *turned_at_ || std::abs(in.measured.w_radps) > kStandsUnder_radps)
     turned_at_ = in.now;
   now_ = in.now;

@@ -40,9 +40,9 @@ struct FollowOutput {
 
 /// Turns a route into twists, 20 times a second: regulated pure pursuit (Coulter 1992; Macenski, Singh,
 /// Martin and Gines, "Regulated Pure Pursuit for Robot Path Tracking", 2023) whose arc is checked against the
-/// newest scan and gives way to a neighbouring one that is free. Drives forward only; turns on the spot when
-/// it faces away from the route, when no arc is free, and for the heading at the goal. Commands nothing that
-/// Clearance calls not free. Pure; one thread.
+/// newest scan and gives way to a neighbouring one that is free. Drives forward; turns on the spot when it
+/// faces away from the route, when no arc is free, and for the heading at the goal; and where there is no
+/// room for a turn, a little straight back. Commands nothing that Clearance calls not free. Pure; one thread.
 class PathFollower {
  public:
   explicit PathFollower(const FollowerConfig& config = {}, const BodyConfig& body = {},
@@ -66,6 +66,12 @@ class PathFollower {
     Twist measured;
     const RecentMotion& motion;
   };
+  /// On the spot.
+  struct Turn {
+    Twist twist;
+    ClearWay way;
+    bool is_enough;  ///< of it is free
+  };
   void estimate(const FollowInputs& in);
   void find_progress();
   std::optional<FollowOutput> come_to_goal(const Tick& tick);
@@ -86,7 +92,9 @@ class PathFollower {
   FollowOutput hindered(Time now, const ClearWay& way);
   void begin_turn(double left_rad);
   bool is_to_turn(const Tick& tick, double off_rad);
+  Turn turn_to(const Tick& tick, int side, double left_rad) const;
   FollowOutput turn_by(const Tick& tick, double left_rad);
+  std::optional<Twist> back_out(const Tick& tick) const;
   double speed_for(const Tick& tick, double curvature_1pm) const;
   double corner_speed_mps() const;
   double allowed_mps(const Tick& tick, double curvature_1pm) const;
@@ -113,6 +121,8 @@ class PathFollower {
   std::optional<Time> turned_at_;  ///< when it last was seen to turn
   int turning_ = 0;                ///< on the spot: 1 left, -1 right
   bool turned_back_ = false;       ///< this turn was tried the other way round
+  double backed_m_ = 0.0;          ///< to make room for it
+  double backs_until_m_ = 0.0;     ///< of these
   std::optional<Time> hindered_at_;
   double hindered_remaining_m_ = 0.0;
   std::optional<Time> held_at_;  ///< last

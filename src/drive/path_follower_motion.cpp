@@ -23,6 +23,10 @@ constexpr double kRounding_m = 0.5;
 constexpr double kTurnBraking_radps2 = 3.0;
 /// Slower turns do not overcome the skidding of the wheels.
 constexpr double kLeastTurn_radps = 0.3;
+/// A turn on the spot that is free only slower than this takes too long.
+constexpr double kWorthTurning_radps = 0.12;
+/// Straight back for a turn: so far at once, and in all.
+constexpr double kBack_m = 0.06, kMostBack_m = 0.4;
 /// On the spot, this near to the wanted direction is enough to drive on.
 constexpr double kFaces_rad = 0.25;
 /// Where no arc is free, this much off is turned on the spot.
@@ -123,6 +127,7 @@ FollowOutput PathFollower::hindered(Time now, const ClearWay& way) {
 void PathFollower::begin_turn(double left_rad) {
   turning_ = left_rad < 0.0 ? -1 : 1;
   turned_back_ = false;
+  backed_m_ = backs_until_m_ = 0.0;
 }
 
 /// Whether the route leads elsewhere than the robot faces, until it faces there.
@@ -136,28 +141,50 @@ bool PathFollower::is_to_turn(const Tick& tick, double off_rad) {
   return turning_ != 0;
 }
 
-/// In the direction of turning_, or when that is not free, in the other one.
+/// Straight back, for the turn that it is at: it came from there.
+std::optional<Twist> PathFollower::back_out(const Tick& tick) const {
+  if (backed_m_ >= kMostBack_m) return std::nullopt;
+  const Twist back{-std::min(config_.least_mps, task_->most_mps), 0.0};
+  const ClearWay way = clearance_.way(tick.now, back, tick.motion);
+  if (way.share <= 0.0) return std::nullopt;
+  return Twist{way.share * back.v_mps, 0.0};
+}
+
+PathFollower::Turn PathFollower::turn_to(const Tick& tick, int side, double left_rad) const {
+  const double same_way = side * left_rad;
+  const double left = same_way < 0.0 ? same_way + kTwoPi : same_way;
+  const double least = std::min(kLeastTurn_radps, config_.turn_radps);
+  const double speed =
+      std::clamp(stopping_speed(left, kTurnBraking_radps2, config_.reaction_s), least, config_.turn_radps);
+  const ClearWay way = clearance_.way(tick.now, {0.0, side * speed}, tick.motion);
+  const Twist twist{0.0, side * way.share * speed};
+  const bool goes_on =
+      last_.w_radps * side > 0.0 && std::abs(twist.w_radps) >= std::min(speed, kWorthTurning_radps);
+  return {twist, way, goes_on || way.free_m >= left * body_.radius_m()};
+}
+
+/// In the direction of turning_ when all of it is free; else a little back; else as far as it goes, this way
+/// or the other.
 FollowOutput PathFollower::turn_by(const Tick& tick, double left_rad) {
   const bool went_too_far = turning_ * left_rad < 0.0 && std::abs(left_rad) < 0.5 * kPi;
   if (went_too_far) turning_ = -turning_;
-  ClearWay first;
-  for (int attempt = 0; attempt < 2; ++attempt) {
-    const double same_way = turning_ * left_rad;
-    const double left = same_way < 0.0 ? same_way + kTwoPi : same_way;
-    const double least = std::min(kLeastTurn_radps, config_.turn_radps);
-    const double speed =
-        std::clamp(stopping_speed(left, kTurnBraking_radps2, config_.reaction_s), least, config_.turn_radps);
-    const ClearWay way = clearance_.way(tick.now, {0.0, turning_ * speed}, tick.motion);
-    if (way.share > 0.0) {
-      last_ = {0.0, turning_ * way.share * speed};
-      return {last_, Following::kTurning, remaining_m(), {}};
-    }
-    if (attempt == 0) first = way;
-    if (turned_back_) break;
-    turned_back_ = true;
-    turning_ = -turning_;
+  const auto move = [&](const Twist& twist) {
+    last_ = twist;
+    return FollowOutput{twist, Following::kTurning, remaining_m(), {}};
+  };
+  const Turn turn = turn_to(tick, turning_, left_rad);
+  const bool is_backing = backed_m_ < backs_until_m_;
+  if (turn.is_enough && !is_backing) return move(turn.twist);
+  if (const auto back = back_out(tick)) {
+    if (!is_backing) backs_until_m_ = backed_m_ + kBack_m;
+    return move(*back);
   }
-  return hindered(tick.now, first);
+  if (turn.way.share > 0.0) return move(turn.twist);
+  if (turned_back_) return hindered(tick.now, turn.way);
+  turned_back_ = true;
+  turning_ = -turning_;
+  const Turn other = turn_to(tick, turning_, left_rad);
+  return other.way.share > 0.0 ? move(other.twist) : hindered(tick.now, turn.way);
 }
 
 /// The slowest of what the limits, the arc, the next corner, the goal and things nearby call for.

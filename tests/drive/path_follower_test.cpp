@@ -32,7 +32,6 @@ double off_route_m(const Route& route, const Pose2& pose) {
 void expect_sane(const ToyRobot& robot) {
   EXPECT_EQ(robot.unfree_commands, 0);
   EXPECT_EQ(robot.nonsense, 0);
-  EXPECT_EQ(robot.backwards, 0);
 }
 
 /// Drives the route to its end; returns the farthest it was from it.
@@ -50,6 +49,7 @@ double drive(ToyRobot& robot, const DriveTask& task, double most_s) {
   EXPECT_LT(off_goal_m(robot, task.route_map.back()), 0.05);
   EXPECT_LT(std::abs(turn(robot.pose.yaw, task.yaw_rad.value_or(robot.pose.yaw))), radians(5));
   EXPECT_FALSE(is_moving(robot.wanted));
+  EXPECT_EQ(robot.backwards, 0);
   expect_sane(robot);
   return farthest;
 }
@@ -236,13 +236,50 @@ TEST(PathFollower, RunsIntoNothingHoweverBadTheRoute) {
 }
 
 TEST(PathFollower, TurnsTheOtherWayWhenACornerWouldTouch) {
-  // Close before the corner that would swing out to the left.
-  ToyRobot robot({{{0.08, 0.132, 0.1, 0.132}}, {}}, ToyFaults{});
+  // Close before the corner that would swing out to the left; and no room behind.
+  ToyRobot robot({{{0.08, 0.132, 0.1, 0.132}, {-0.16, 0.0, -0.16, 0.02}}, {}}, ToyFaults{});
   robot.follower.follow(route({{0, 0}, {-1, 1.5}}));
   const FollowOutput out = robot.tick();
   EXPECT_EQ(out.state, Following::kTurning) << out.reason;
   EXPECT_LT(out.twist.w_radps, 0.0);
   expect_sane(robot);
+}
+
+TEST(PathFollower, BacksOutOfADeadEndThatIsTooNarrowForATurn) {
+  // Seen from above, the robot's nose to the right:
+  //           |_____
+  //                 |
+  //            _____|
+  //           |
+  const DrawnWorld dead_end{{{-0.1, 0.16, 0.2, 0.16},
+                             {-0.1, -0.16, 0.2, -0.16},
+                             {0.2, -0.16, 0.2, 0.16},
+                             {-0.1, 0.16, -0.1, 1},
+                             {-0.1, -0.16, -0.1, -1}},
+                            {}};
+  for (const ToyFaults& faults : {ToyFaults{}, kReal}) {
+    ToyRobot robot(dead_end, faults);
+    robot.follower.follow(route({{0, 0}, {-0.6, 0}, {-0.6, 1.5}}));
+    EXPECT_EQ(robot.run_to_end(20.0).state, Following::kArrived);
+    EXPECT_LT(off_goal_m(robot, {-0.6, 1.5}), 0.06);
+    EXPECT_GT(robot.least_gap_m, 0.005);
+    EXPECT_EQ(robot.unfree_commands, 0);
+    EXPECT_GT(robot.backwards, 0);
+    EXPECT_LT(robot.backwards, 120) << "no farther than it must";
+  }
+}
+
+TEST(PathFollower, SaysThatItIsBlockedWhereItCanNeitherTurnNorBack) {
+  const DrawnWorld box{{{-0.2, 0.16, 0.2, 0.16},
+                        {-0.2, -0.16, 0.2, -0.16},
+                        {0.2, -0.16, 0.2, 0.16},
+                        {-0.2, -0.16, -0.2, 0.16}},
+                       {}};
+  ToyRobot robot(box, ToyFaults{});
+  robot.follower.follow(route({{0, 0}, {-2, 0}}));
+  EXPECT_EQ(robot.run_to_end(10.0).state, Following::kBlocked);
+  EXPECT_GT(robot.least_gap_m, 0.005);
+  EXPECT_EQ(robot.unfree_commands, 0);
 }
 
 TEST(PathFollower, NoticesThatItsWheelsSlip) {
