@@ -251,11 +251,14 @@ step_arm64() {
   local debian build
   debian=$(. /etc/os-release && echo "$VERSION_ID")
   build=build/arm64-$debian
-  out=$(mktemp -d)
-  trap 'rm -rf "$out"' EXIT
+  local here there
+  here=$(mktemp -d) there=$(mktemp -d)
+  trap 'rm -rf "$here" "$there"' EXIT
+  toolchain/host.sh run replay "$recording" --set slam.trusted_range_m=30 --out "$here" --quiet
   qemu-aarch64-static -L "build/sysroot-arm64-$debian" "$build/src/dynslam" replay "$recording" \
-    --set slam.trusted_range_m=30 --out "$out" --quiet
-  fingerprint "$out"
+    --set slam.trusted_range_m=30 --out "$there" --quiet
+  fingerprint "$there"
+  tests/package/same_result_test.sh "$here" "$there"
   toolchain/pi.sh package
   tests/package/content_test.sh "$build"/dynslam_*.deb
 }

@@ -119,8 +119,7 @@ TEST_P(Missions, ReachesPlacesDrawnByLotOrRightlySaysThatItCannot) {
   EXPECT_EQ(mission["contacts"], 0) << mission["contact_places"].dump(2);
   EXPECT_EQ(mission["goals"]["tried"], goals);
   EXPECT_LE(mission["goals"]["failed"].get<double>(), 0.01 * goals) << mission["failures"].dump(2);
-  // Ten would be good; out of the tightest corners it turns by millimetres.
-  EXPECT_LE(mission["longest_wait_s"].get<double>(), 25.0) << mission["longest_wait_at"].dump(2);
+  EXPECT_LE(mission["longest_wait_s"].get<double>(), 10.0) << mission["longest_wait_at"].dump(2);
   EXPECT_LT(mission["reversals_per_m"].get<double>(), 3.0);
 }
 
