@@ -251,7 +251,6 @@ step_arm64() {
   local debian build
   debian=$(. /etc/os-release && echo "$VERSION_ID")
   build=build/arm64-$debian
-  local here there
   here=$(mktemp -d) there=$(mktemp -d)
   trap 'rm -rf "$here" "$there"' EXIT
   toolchain/host.sh run replay "$recording" --set slam.trusted_range_m=30 --out "$here" --quiet
