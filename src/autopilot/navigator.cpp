@@ -13,6 +13,10 @@ constexpr Duration kReplanSoon = std::chrono::milliseconds(400);
 constexpr double kFirstPatience_s = 3.0;
 /// A new route must be shorter by so much, or the robot would waver between two ways round.
 constexpr double kBetter = 0.9;
+/// Who stands at the destination gets so long to step aside.
+constexpr Duration kStepsAside = std::chrono::seconds(8);
+/// A route's end is not farther away when its follower has arrived there.
+constexpr double kAtEnd_m = 0.5;
 /// The follower knows how fast it drives.
 constexpr double kNoLimit_mps = 100.0;
 
@@ -39,7 +43,8 @@ void Navigator::give_up() {
   last_plan_.reset();
   planned_at_.reset();
   held_up_since_.reset();
-  had_route_ = false;
+  near_since_.reset();
+  had_route_ = was_free_ = false;
 }
 
 void Navigator::plan_anew() {
@@ -52,7 +57,7 @@ Navigator::Report Navigator::turn(Time now, const Pose2& map_T_robot, const Cost
                                   const FollowReport& follow) {
   if (!to_) return {};
   const bool is_news = task_ && follow.task == task_->id;
-  if (is_news && follow.state == Following::kArrived)
+  if (is_news && is_arrival(now, map_T_robot, follow))
     return end(State::kArrived, last_plan_->outcome == PlanOutcome::kNearby ? last_plan_->reason : "");
   if (is_news && follow.state == Following::kStuck) return end(State::kStuck, follow.reason);
   if (is_route_due(now, costmap, follow)) plan(now, map_T_robot, costmap, follow);
@@ -63,7 +68,19 @@ Navigator::Report Navigator::turn(Time now, const Pose2& map_T_robot, const Cost
   if (is_news && (follow.state == Following::kBlocked || follow.state == Following::kWaiting))
     return wait(now, follow.reason);
   held_up_since_.reset();
+  if (near_since_) return {State::kWaiting, last_plan_->reason};
   return {State::kDriving};
+}
+
+/// At the destination; or as near as it can come, and whoever stood there had time to go.
+bool Navigator::is_arrival(Time now, const Pose2& map_T_robot, const FollowReport& follow) {
+  const bool is_there = follow.state == Following::kArrived &&
+                        (task_->route_map.back() - map_T_robot.translation()).norm() <= kAtEnd_m;
+  const bool may_get_free = stops_ && was_free_ && last_plan_->outcome == PlanOutcome::kNearby;
+  if (!is_there || !may_get_free) near_since_.reset();
+  if (!is_there || !may_get_free) return is_there;
+  if (!near_since_ || now < *near_since_) near_since_ = now;
+  return now - *near_since_ > kStepsAside;
 }
 
 /// On time, and at once when the route ends in something.
@@ -82,6 +99,7 @@ bool Navigator::is_blocked(const Costmap& costmap, const FollowReport& follow) c
 void Navigator::plan(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow) {
   planned_at_ = now;
   Plan plan = planner_.plan(costmap, {map_T_robot.translation(), to_->point_map});
+  was_free_ = was_free_ || plan.outcome == PlanOutcome::kFound;
   if (plan.outcome == PlanOutcome::kNoRoute) {
     task_.reset();
   } else if (!task_ || is_better(plan, costmap, follow)) {
@@ -95,6 +113,7 @@ void Navigator::plan(Time now, const Pose2& map_T_robot, const Costmap& costmap,
 
 bool Navigator::is_better(const Plan& plan, const Costmap& costmap, const FollowReport& follow) const {
   if (follow.task != task_->id || is_blocked(costmap, follow)) return true;
+  if (plan.outcome == PlanOutcome::kFound && last_plan_->outcome == PlanOutcome::kNearby) return true;
   return plan.length_m < kBetter * follow.remaining_m;
 }
 

@@ -70,6 +70,7 @@ class Navigator {
  private:
   bool is_route_due(Time now, const Costmap& costmap, const FollowReport& follow) const;
   void plan(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow);
+  bool is_arrival(Time now, const Pose2& map_T_robot, const FollowReport& follow);
   bool is_better(const Plan& plan, const Costmap& costmap, const FollowReport& follow) const;
   bool is_blocked(const Costmap& costmap, const FollowReport& follow) const;
   Report wait(Time now, const std::string& reason);
@@ -82,6 +83,8 @@ class Navigator {
   bool stops_ = true;
   double patience_s_ = 0.0;
   bool had_route_ = false;
+  bool was_free_ = false;           ///< the destination, to stand at
+  std::optional<Time> near_since_;  ///< it stands as near as it can come
   std::optional<Plan> last_plan_;
   std::optional<Time> planned_at_;
   std::optional<Time> held_up_since_;

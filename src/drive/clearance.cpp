@@ -64,8 +64,8 @@ double Clearance::nearest_m(Time now, const RecentMotion& motion) const {
 }
 
 ClearWay Clearance::way(Time now, const Twist& twist, const RecentMotion& motion) const {
-  if (!is_moving(twist)) return {1.0, 0.0, std::numeric_limits<double>::infinity()};
-  if (!end_) return {0.0, 0.0, 0.0};
+  if (!is_moving(twist)) return {};
+  if (!end_) return {0.0};
   // Where the scan's points are if the robot drove since, and if it only turned, or not even that.
   const Pose2 moved = motion.between(*end_, now).inverse();
   const Pose2 stayed{0.0, 0.0, motion.knows_turns() ? moved.yaw : 0.0};
@@ -81,15 +81,17 @@ ClearWay Clearance::way(Time now, const Twist& twist, const RecentMotion& motion
   };
 
   Contact nearest = contact(config_.side_margin_m);
-  const double free_m = nearest.time_s * speed;
-  double allowed = safe_speed_mps(free_m);
+  const double roomy_m = nearest.time_s * speed;
+  double free_m = roomy_m, allowed = safe_speed_mps(roomy_m);
   if (allowed < std::min(speed, config_.creep_mps)) {
     const Contact creeping = contact(config_.creep_margin_m);
-    const double slow = std::min(config_.creep_mps, safe_speed_mps(creeping.time_s * speed));
-    if (slow > allowed) allowed = slow;
+    const double creeping_m = creeping.time_s * speed;
+    const double slow = std::min(config_.creep_mps, safe_speed_mps(creeping_m));
+    free_m = std::max(free_m, creeping_m);
+    allowed = std::max(allowed, slow);
   }
-  if (allowed < kLeastSpeed_mps) return {0.0, nearest.distance_m, free_m};
-  return {std::min(1.0, allowed / speed), nearest.distance_m, free_m};
+  if (allowed < kLeastSpeed_mps) return {0.0, nearest.distance_m, free_m, roomy_m};
+  return {std::min(1.0, allowed / speed), nearest.distance_m, free_m, roomy_m};
 }
 
 }  // namespace dynslam

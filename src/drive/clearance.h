@@ -53,7 +53,8 @@ struct ClearanceConfig {
 struct ClearWay {
   double share = 1.0;       ///< of the wanted twist, at which the robot stops in time; 0: not that way
   double distance_m = 0.0;  ///< from the body to what limits it, when share < 1
-  double free_m = 0.0;      ///< so far the body's fastest point can go with side_margin_m left on the sides
+  double free_m = 0.0;      ///< so far the body's fastest point can go, if need be creeping,
+  double roomy_m = 0.0;     ///< and so far with side_margin_m left on the sides
 };
 
 /// The collision zone: sweeps the robot's rectangle along the arc that is wanted through the newest scan's

@@ -174,7 +174,7 @@ std::optional<FollowOutput> PathFollower::come_to_goal(const Tick& tick) {
   if (task_->stops_at_end && !faces_goal_heading(tick)) {
     const double left = turn(pose_.yaw, *task_->yaw_rad);
     if (turning_ == 0) begin_turn(left);
-    return turn_by(tick, left);
+    return turn_by(tick, left, false);  // it is where it is to be
   }
   if (swings) return rest(Following::kTurning);
   turning_ = 0;

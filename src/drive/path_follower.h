@@ -93,7 +93,7 @@ class PathFollower {
   void begin_turn(double left_rad);
   bool is_to_turn(const Tick& tick, double off_rad);
   Turn turn_to(const Tick& tick, int side, double left_rad) const;
-  FollowOutput turn_by(const Tick& tick, double left_rad);
+  FollowOutput turn_by(const Tick& tick, double left_rad, bool may_back);
   std::optional<Twist> back_out(const Tick& tick) const;
   double speed_for(const Tick& tick, double curvature_1pm) const;
   double corner_speed_mps() const;

@@ -52,14 +52,14 @@ FollowOutput PathFollower::drive(const Tick& tick) {
   if (misses_ > kMostMisses) return rest(Following::kBlocked, "the goal cannot be reached exactly");
   const Vector2 to = aim_robot();
   const double off = std::atan2(to.y(), to.x());
-  if (is_to_turn(tick, off)) return turn_by(tick, off);
+  if (is_to_turn(tick, off)) return turn_by(tick, off, true);
 
   const double wanted = curvature_to(to);
   const double wanted_mps = allowed_mps(tick, wanted);
   const std::optional<Arc> arc = arc_for(tick, to, wanted, wanted_mps);
   if (!arc && std::abs(off) > kTurnsOut_rad) {
     begin_turn(off);
-    return turn_by(tick, off);
+    return turn_by(tick, off, true);
   }
   if (!arc) return hindered(tick.now, clearance_.way(tick.now, {kLook_mps, kLook_mps * wanted}, tick.motion));
   note_hindrance(tick.now, wanted_mps > 0.0);
@@ -160,12 +160,13 @@ PathFollower::Turn PathFollower::turn_to(const Tick& tick, int side, double left
   const Twist twist{0.0, side * way.share * speed};
   const bool goes_on =
       last_.w_radps * side > 0.0 && std::abs(twist.w_radps) >= std::min(speed, kWorthTurning_radps);
-  return {twist, way, goes_on || way.free_m >= left * body_.radius_m()};
+  const double room_m = backed_m_ > 0.0 ? way.roomy_m : way.free_m;  // what it backs for is a good turn
+  return {twist, way, goes_on || room_m >= left * body_.radius_m()};
 }
 
 /// In the direction of turning_ when all of it is free; else a little back; else as far as it goes, this way
 /// or the other.
-FollowOutput PathFollower::turn_by(const Tick& tick, double left_rad) {
+FollowOutput PathFollower::turn_by(const Tick& tick, double left_rad, bool may_back) {
   const bool went_too_far = turning_ * left_rad < 0.0 && std::abs(left_rad) < 0.5 * kPi;
   if (went_too_far) turning_ = -turning_;
   const auto move = [&](const Twist& twist) {
@@ -175,7 +176,7 @@ FollowOutput PathFollower::turn_by(const Tick& tick, double left_rad) {
   const Turn turn = turn_to(tick, turning_, left_rad);
   const bool is_backing = backed_m_ < backs_until_m_;
   if (turn.is_enough && !is_backing) return move(turn.twist);
-  if (const auto back = back_out(tick)) {
+  if (const auto back = may_back ? back_out(tick) : std::nullopt) {
     if (!is_backing) backs_until_m_ = backed_m_ + kBack_m;
     return move(*back);
   }

@@ -175,6 +175,37 @@ TEST(Autopilot, DrivesOnWhenTheDoorOpensAgain) {
   EXPECT_EQ(pilot.run().phase, AutopilotPhase::kIdle);
 }
 
+TEST(Autopilot, WaitsForWhoStandsAtItsDestinationAndThenGoesThere) {
+  KnownFlat pilot;
+  const Vector2 goal = pilot.building.find('g') + Vector2(0.2, 0.0);
+  pilot.turn(GoThere{{goal}});
+  for (int i = 0; i < 5; ++i) pilot.turn();
+  pilot.building.wall_up('g');
+  pilot.building.know_all();
+  for (int i = 0; i < 300 && pilot.follow.state != Following::kArrived; ++i)
+    ASSERT_EQ(pilot.turn().phase, AutopilotPhase::kActive);
+  EXPECT_GT(pilot.away_m(goal), 0.1);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kActive);
+  pilot.building.open('#');
+  pilot.building.know_all();
+  EXPECT_EQ(pilot.run().reason, "arrived");
+  EXPECT_LT(pilot.away_m(goal), 0.01);
+}
+
+TEST(Autopilot, ContentsItselfWithAPlaceNearbyWhenItsDestinationStaysTaken) {
+  KnownFlat pilot;
+  const Vector2 goal = pilot.building.find('g') + Vector2(0.2, 0.0);
+  pilot.turn(GoThere{{goal}});
+  pilot.building.wall_up('g');
+  pilot.building.know_all();
+  for (int i = 0; i < 300 && pilot.follow.state != Following::kArrived; ++i) pilot.turn();
+  const Time there = pilot.now;
+  EXPECT_THAT(pilot.run().reason, HasSubstr("as near as it can come"));
+  EXPECT_GT(pilot.now - there, std::chrono::seconds(7));
+  EXPECT_LT(pilot.now - there, std::chrono::seconds(10));
+  EXPECT_LT(pilot.away_m(goal), 0.5);
+}
+
 TEST(Autopilot, WhoTakesTheWheelEndsIt) {
   KnownFlat pilot;
   pilot.turn(GoThere{{pilot.building.find('g')}});
