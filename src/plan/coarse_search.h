@@ -37,6 +37,8 @@ class CoarseSearch {
   /// Goes on from there.
   void expand(const Settled& settled);
 
+  /// Whether the search came by there.
+  bool reached(std::size_t index) const { return nodes_[index].stamp == stamp_; }
   /// Where the way to a settled cell comes from; itself for the first.
   std::size_t before(std::size_t index) const;
   /// The length of the step to a settled cell, in coarse cells.

@@ -12,6 +12,9 @@
 namespace dynslam {
 namespace {
 
+/// Room of so few coarse cells is not somewhere to be: a third of a square metre.
+constexpr int kPocket = 50;
+
 Plan no_route(std::string reason) {
   Plan plan;
   plan.reason = std::move(reason);
@@ -66,7 +69,7 @@ Plan PathPlanner::plan(const Costmap& costmap, const PlanRequest& request) {
   if (!start.allFinite() || !goal.allFinite()) return no_route("not a place");
   if (!costmap.contains(start)) return no_route("the robot is outside of the map");
   const Ground cells = this->cells(request.unknown), legs = this->legs(request.unknown);
-  const auto out = way_out(costmap, cells, start);
+  const auto out = into_the_open(costmap, cells, legs, start, goal);
   if (!out) return no_route("no way out from where the robot stands");
 
   const Found found = search(costmap, cells, legs, out->back(), goal);
@@ -87,6 +90,28 @@ Plan PathPlanner::plan(const Costmap& costmap, const PlanRequest& request) {
   for (const Vector2& p : pulled(std::move(open), costmap, legs)) plan.route_map.push_back(p);
   plan.length_m = length_of(plan.route_map);
   return plan;
+}
+
+/// From the start to where the robot has room. Room that nothing leads out of, as between the legs of a chair
+/// that it got under, is left as well, unless the goal is there.
+std::optional<std::vector<Vector2>> PathPlanner::into_the_open(const Costmap& costmap, const Ground& cells,
+                                                               const Ground& legs, const Vector2& start,
+                                                               const std::optional<Vector2>& goal) {
+  auto out = way_out(costmap, cells, start);
+  if (!out) return out;
+  const auto coarse = [&](const Vector2& p) {
+    return costmap.coarse().index_of(cell_at(p, costmap.cell_size_m()));
+  };
+  search_.begin(costmap, cells, legs, coarse(out->back()), std::nullopt);
+  int expansions = 0;
+  while (const auto settled = search_.next()) {
+    if (++expansions > kPocket) return out;
+    search_.expand(*settled);
+  }
+  if (goal && costmap.contains(*goal) && search_.reached(coarse(*goal))) return out;
+  const auto beyond =
+      way_out_of([&](std::size_t index) { return search_.reached(index); }, costmap, cells, start);
+  return beyond ? beyond : out;
 }
 
 /// Where the goal has no room, the search goes on a little after it came near: the first place is not the
@@ -174,7 +199,7 @@ const RouteLengths& PathPlanner::reach(const Costmap& costmap, const Vector2& st
   lengths_.reset(costmap);
   if (!start_map.allFinite() || !costmap.contains(start_map)) return lengths_;
   const Ground cells = this->cells(Unknown::kForbidden), legs = this->legs(Unknown::kForbidden);
-  const auto out = way_out(costmap, cells, start_map);
+  const auto out = into_the_open(costmap, cells, legs, start_map, std::nullopt);
   if (!out) return lengths_;
   const double coarse_m = kCoarseSide * costmap.cell_size_m(), first_m = length_of(*out);
   std::vector<float>& lengths = lengths_.length_m_;

@@ -70,6 +70,9 @@ class PathPlanner {
   };
   Ground cells(Unknown unknown) const { return {config_, robot_radius_m_ + config_.margin_m, unknown}; }
   Ground legs(Unknown unknown) const { return {config_, robot_radius_m_ + config_.prune_margin_m, unknown}; }
+  std::optional<std::vector<Vector2>> into_the_open(const Costmap& costmap, const Ground& cells,
+                                                    const Ground& legs, const Vector2& start,
+                                                    const std::optional<Vector2>& goal);
   Found search(const Costmap& costmap, const Ground& cells, const Ground& legs, const Vector2& from,
                const Vector2& goal);
   std::vector<Vector2> centres_to(const Costmap& costmap, std::size_t end) const;

@@ -20,10 +20,14 @@ constexpr int kTightness = 5;
 /// Dijkstra over the cells around the start.
 class WayOut {
  public:
-  WayOut(const Costmap& map, const Ground& ground, CellIndex start)
+  using Pocket = std::function<bool(std::size_t)>;
+  /// A pocket may be null.
+  WayOut(const Costmap& map, const Ground& ground, CellIndex start, const Pocket& pocket)
       : map_(map),
         ground_(ground),
         start_(start),
+        pocket_(pocket),
+        least_steps_(pocket ? ground.least_clearance() / 2 : 0),
         radius_(static_cast<int>(way_out_reach_m(map, cell_centre(start, map.cell_size_m())) /
                                  map.cell_size_m())),
         own_body_(map.is_occupied(start) ? static_cast<int>(kOwnBody_m / map.cell_size_m()) : 0) {}
@@ -59,11 +63,14 @@ class WayOut {
 
   bool is_out(CellIndex c) const {
     const CoarseGrid& grid = map_.coarse();
-    return map_.clearance_steps(c) >= ground_.least_clearance() && ground_.price(grid[grid.index_of(c)]) != 0;
+    const std::size_t coarse = grid.index_of(c);
+    return map_.clearance_steps(c) >= ground_.least_clearance() && ground_.price(grid[coarse]) != 0 &&
+           !(pocket_ && pocket_(coarse));
   }
   bool is_passable(CellIndex c) const {
     const int dx = c.x - start_.x, dy = c.y - start_.y, square = dx * dx + dy * dy;
     if (square > radius_ * radius_ || !map_.contains(c)) return false;
+    if (map_.clearance_steps(c) < least_steps_) return false;
     return square <= own_body_ * own_body_ || !map_.is_occupied(c);
   }
   void expand(CellIndex c, int cost) {
@@ -94,6 +101,8 @@ class WayOut {
   const Costmap& map_;
   const Ground& ground_;
   CellIndex start_;
+  const Pocket& pocket_;
+  int least_steps_;
   int radius_, own_body_;  ///< cells
   std::vector<Node> nodes_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
@@ -109,9 +118,10 @@ double way_out_reach_m(const Costmap& map, const Vector2& start_map) {
   return map.is_forbidden(cell_at(start_map, map.cell_size_m())) ? kReachInForbidden_m : kReach_m;
 }
 
-std::optional<std::vector<Vector2>> way_out(const Costmap& map, const Ground& ground,
-                                            const Vector2& start_map) {
-  const auto cells = WayOut(map, ground, cell_at(start_map, map.cell_size_m())).find();
+std::optional<std::vector<Vector2>> way_out_of(const std::function<bool(std::size_t)>& pocket,
+                                               const Costmap& map, const Ground& ground,
+                                               const Vector2& start_map) {
+  const auto cells = WayOut(map, ground, cell_at(start_map, map.cell_size_m()), pocket).find();
   if (!cells) return std::nullopt;
   std::vector<Vector2> way{start_map};
   for (std::size_t i = 1; i < cells->size(); ++i) {
@@ -119,6 +129,11 @@ std::optional<std::vector<Vector2>> way_out(const Costmap& map, const Ground& gr
     if (!passes) way.push_back(cell_centre((*cells)[i], map.cell_size_m()));
   }
   return way;
+}
+
+std::optional<std::vector<Vector2>> way_out(const Costmap& map, const Ground& ground,
+                                            const Vector2& start_map) {
+  return way_out_of(nullptr, map, ground, start_map);
 }
 
 }  // namespace dynslam

@@ -205,6 +205,29 @@ TEST(PathPlanner, FindsItsWayOutOfATightPlaceButThroughNoWall) {
   EXPECT_GE(least_clearance_m(map, plan.route_map, first_free), kPruned_m);
 }
 
+/// Four legs with 36 cm between them: room to stand in their middle, but too little between two of them.
+TEST(PathPlanner, FindsItsWayOutBetweenTheLegsOfAChair) {
+  DrawnFloor floor;
+  floor.clear(0, 0, 4, 4);
+  for (const double x : {1.0, 1.4}) {
+    for (const double y : {1.0, 1.4}) floor.occupy(x, y, x + 0.04, y + 0.04);
+  }
+  const Costmap map = floor.costmap();
+  const Vector2 middle(1.22, 1.22), outside(3, 3);
+  ASSERT_GT(map.clearance_m(middle), kRadius_m + 0.04);
+  EXPECT_EQ(plan_on(map, outside, middle).outcome, PlanOutcome::kNoRoute);
+  const Plan plan = plan_on(map, middle, outside);
+  ASSERT_EQ(plan.outcome, PlanOutcome::kFound) << plan.reason;
+  EXPECT_GT(least_clearance_m(map, plan.route_map), 0.17) << "through the middle of a gap";
+  PathPlanner planner({}, kRadius_m);
+  EXPECT_TRUE(planner.reach(map, middle).length_m(outside));
+  // Round it a wall with a gap that is too narrow to squeeze through.
+  floor.occupy(0.6, 0.6, 1.84, 1.84);
+  floor.clear(0.9, 0.9, 1.54, 1.54);
+  floor.clear(1.5, 1.2, 2.0, 1.28);
+  EXPECT_EQ(plan_on(floor.costmap(), middle, outside).outcome, PlanOutcome::kNoRoute);
+}
+
 TEST(PathPlanner, LeavesWhereItShowsAsOccupiedItself) {
   DrawnFloor floor;
   floor.clear(0, 0, 4, 4);
