@@ -62,6 +62,7 @@ void Autopilot::take(const Order& order) {
   errand_ = order;
   flees_ = false;
   stop_ = failed_stops_ = 0;
+  if (felt_.trust() && costmap_) keep_out();
   const bool explores = std::holds_alternative<Explore>(order);
   status_.mode = explores ? AutopilotMode::kExploration : AutopilotMode::kNavigation;
   if (std::holds_alternative<SwitchOff>(order)) return end(AutopilotPhase::kOff, "");
@@ -190,6 +191,11 @@ void Autopilot::set_out_to(const Destination& to, bool stops, std::optional<doub
 
 bool Autopilot::explore(Time now, const Vector2& robot_map) {
   const bool is_new = explorer_.choose(now, robot_map, *costmap_, planner_);
+  if (explorer_.is_over() && felt_.doubt()) {
+    keep_out();
+    explorer_.begin();
+    return false;
+  }
   if (explorer_.is_over() && config_.when_explored != "revisit") {
     finish_exploring();
     return false;
@@ -223,6 +229,7 @@ void Autopilot::finish_exploring() {
 void Autopilot::arrived(Time now, const std::string& remark) {
   failed_stops_ = 0;
   if (explores()) return explorer_.reached(now);
+  if (felt_.trust()) keep_out();
   if (std::holds_alternative<Patrol>(errand_)) {
     ++stop_;
     rests_until_ = now + from_seconds(config_.patrol_pause_s);
@@ -235,13 +242,9 @@ void Autopilot::arrived(Time now, const std::string& remark) {
 }
 
 void Autopilot::failed(Time now, const Navigator::Report& report) {
-  // What it felt was a guess: it may not shut the only way.
-  if (!felt_.outlines_map().empty()) {
-    felt_.clear();
-    keep_out();
-    if (!explores()) return;
-  }
   if (explores()) return explorer_.failed(now);
+  if (felt_.doubt()) return keep_out();
+  if (felt_.trust()) keep_out();
   if (const auto* patrol = std::get_if<Patrol>(&errand_)) {
     ++stop_;
     if (++failed_stops_ < patrol->stops.size()) return;

@@ -24,6 +24,7 @@ std::vector<Vector2> outline_around(const Vector2& middle) {
 }  // namespace
 
 void FeltObstacles::touched(Time now, const Pose2& map_T_robot, const Twist& driven, double robot_radius_m) {
+  doubted_ = false;
   Felt felt{now, {}};
   if (driven.v_mps != 0.0) {
     const double ahead_m = std::copysign(robot_radius_m + 0.5 * kRadius_m, driven.v_mps);
@@ -40,6 +41,17 @@ bool FeltObstacles::forget(Time now) {
   return felt_.size() != before;
 }
 
+bool FeltObstacles::doubt() {
+  const bool counts = !outlines_map().empty();
+  doubted_ = true;
+  return counts;
+}
+
+bool FeltObstacles::trust() {
+  doubted_ = false;
+  return !outlines_map().empty();
+}
+
 std::size_t FeltObstacles::count_since(Time since) const {
   return static_cast<std::size_t>(
       std::count_if(felt_.begin(), felt_.end(), [&](const Felt& f) { return f.time >= since; }));
@@ -47,6 +59,7 @@ std::size_t FeltObstacles::count_since(Time since) const {
 
 std::vector<std::vector<Vector2>> FeltObstacles::outlines_map() const {
   std::vector<std::vector<Vector2>> outlines;
+  if (doubted_) return outlines;
   for (const Felt& f : felt_)
     if (!f.outline_map.empty()) outlines.push_back(f.outline_map);
   return outlines;

@@ -18,7 +18,11 @@ class FeltObstacles {
   void touched(Time now, const Pose2& map_T_robot, const Twist& driven, double robot_radius_m);
   /// Forgets what was long ago; returns whether there was any such.
   bool forget(Time now);
-  void clear() { felt_.clear(); }
+  /// It seems to shut the way, and was a guess: it counts for nothing until trust() or the next touch.
+  /// Returns whether that changes anything.
+  bool doubt();
+  /// It was not that. Returns whether that changes anything.
+  bool trust();
 
   /// Touches since `since`.
   std::size_t count_since(Time since) const;
@@ -31,6 +35,7 @@ class FeltObstacles {
     std::vector<Vector2> outline_map;
   };
   std::deque<Felt> felt_;
+  bool doubted_ = false;
 };
 
 }  // namespace dynslam

@@ -273,6 +273,27 @@ TEST(Autopilot, BacksOffFromATouchAndDrivesRoundWhatItFelt) {
   EXPECT_GT(nearest_m, 0.3);
 }
 
+TEST(Autopilot, WhatItFeltDoesNotShutTheOnlyWayButIsNotForgotten) {
+  Touching pilot;
+  // Before the only door; what it touches lies in the middle of that.
+  const Vector2 door = pilot.building.find('d') + Vector2(0.1, -0.2);
+  pilot.at = {door.x() - 0.3, door.y(), 0.0};
+  pilot.back_off(true);
+  EXPECT_EQ(pilot.run().reason, "arrived");
+  EXPECT_GT(pilot.at.x, door.x()) << "through the door all the same";
+  // Where there is a way round it, that is taken.
+  pilot.building.open('#');
+  pilot.building.know_all();
+  pilot.turn(GoThere{{door - Vector2(1.0, 0.0)}});
+  double nearest_m = 9.0;
+  while (pilot.autopilot.task() && pilot.way_m < 20.0) {
+    nearest_m = std::min(nearest_m, pilot.away_m(door));
+    pilot.turn();
+  }
+  EXPECT_GT(nearest_m, 0.25);
+  EXPECT_LT(nearest_m, 1.0);
+}
+
 TEST(Autopilot, ATouchThatDoesNotEndEndsIt) {
   Touching pilot;
   EXPECT_LT(pilot.back_off(false), 3.0);
