@@ -24,7 +24,7 @@ struct Bno055Config {
   /// What is wrong with the values together, if anything.
   std::optional<std::string> problem() const {
     if (axis_of(forward) == 0 || axis_of(up) == 0 || axis_of(forward) == axis_of(up))
-      return "imu.forward, imu.up: must be two of the chip's axes at right angles, such as \"x\" and \"-z\"";
+      return R"(imu.forward, imu.up: must be two of the chip's axes at right angles, such as "x" and "-z")";
     return std::nullopt;
   }
 

@@ -59,7 +59,7 @@ struct GpioConfig {
           self.chip);
     visit(Field{"estop_line", "line of the e-stop's button, -1: none", -1, kMostLine}, self.estop_line);
     visit(Field{"estop_active_low", "the e-stop is pressed while its line is low"}, self.estop_active_low);
-    visit(Field{"bumper_lines", "lines of the bumpers, as in [\"22\", \"27\"]"}, self.bumper_lines);
+    visit(Field{"bumper_lines", R"(lines of the bumpers, as in ["22", "27"])"}, self.bumper_lines);
     visit(Field{"bumper_active_low", "a bumper is pressed while its line is low"}, self.bumper_active_low);
     visit(Field{"bumper_debounce_s", "what presses a bumper for less is no touch", 0.0, 0.1},
           self.bumper_debounce_s);

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drivers/rplidar/device_talk.h"
@@ -25,7 +26,7 @@ struct Portrait {
 /// modes, spins it up, and lets it measure. Goes on where it stopped when time was up. One thread.
 class Start {
  public:
-  Start(const RplidarConfig& config, const Clock& clock) : config_(config), clock_(clock), talk_(clock) {}
+  Start(RplidarConfig config, const Clock& clock) : config_(std::move(config)), clock_(clock), talk_(clock) {}
 
   /// Until all is known that it says of itself. False: not by `until`. Throws DeviceError.
   bool identify(Time until) { return advance(Phase::kMotor, until); }

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "autopilot/autopilot_config.h"
@@ -18,8 +19,8 @@ namespace dynslam {
 /// all is seen. Pure; one thread.
 class Explorer {
  public:
-  Explorer(const ExplorationConfig& exploration, const AutopilotConfig& autopilot)
-      : config_(autopilot), exploration_(exploration), frontier_map_(exploration) {}
+  Explorer(const ExplorationConfig& exploration, AutopilotConfig autopilot)
+      : config_(std::move(autopilot)), exploration_(exploration), frontier_map_(exploration) {}
 
   /// Keeps up with the map and with where the robot was, whoever drives.
   void observe(Time now, const GridSnapshot& map, const PoseEstimate& pose);

@@ -16,7 +16,7 @@ std::vector<Vector2> outline_around(const Vector2& middle) {
   std::vector<Vector2> outline;
   for (int i = 0; i < kCorners; ++i) {
     const double angle = kTwoPi * i / kCorners;
-    outline.push_back(middle + kRadius_m * Vector2(std::cos(angle), std::sin(angle)));
+    outline.emplace_back(middle + kRadius_m * Vector2(std::cos(angle), std::sin(angle)));
   }
   return outline;
 }

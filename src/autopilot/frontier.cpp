@@ -163,6 +163,7 @@ std::vector<Frontier> find_frontiers(std::span<const CellIndex> cells, double ce
   }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Frontier> frontiers;
+  frontiers.reserve(found.size());
   for (const auto& [middle, frontier] : found) frontiers.push_back(frontier);
   return frontiers;
 }

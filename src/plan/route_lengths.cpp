@@ -22,8 +22,8 @@ std::optional<double> RouteLengths::length_m(const Vector2& point_map) const {
 }
 
 std::optional<Vector2> RouteLengths::nearest_reached(const Vector2& point_map, double within_m) const {
-  if (const auto roomy = nearest(point_map, within_m, false)) return roomy;
-  return nearest(point_map, within_m, true);
+  const auto roomy = nearest(point_map, within_m, false);
+  return roomy.has_value() ? roomy : nearest(point_map, within_m, true);
 }
 
 std::optional<Vector2> RouteLengths::nearest(const Vector2& point_map, double within_m, bool by_posts) const {
