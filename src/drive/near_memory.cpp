@@ -14,8 +14,11 @@ constexpr Duration kLongestGap = std::chrono::milliseconds(500);
 constexpr double kOutside_m = 0.03;
 /// So long after it was seen last it is taken to be gone: where nothing comes back from far away either.
 constexpr Duration kForgets = std::chrono::seconds(30);
-/// Where in it a hidden thing may be is not known: at this share of its radius.
-constexpr double kHiddenAt = 0.9;
+/// Where in it a hidden thing may be, as a share of its radius: one that stood still, and one that came.
+constexpr double kStoodAt = 0.98, kCameAt = 0.9;
+/// Seen so often, within so much, it stands still.
+constexpr int kStands = 3;
+constexpr double kSamePlace_m = 0.02;
 /// A return from so far behind a thing says that it is gone.
 constexpr double kBehind_m = 0.06;
 
@@ -52,7 +55,7 @@ void NearMemory::add_to(std::vector<ObstaclePoint>& points, const Scan& scan, co
 
   for (const ObstaclePoint& p : points) {
     const Vector2 from_lidar = lidar_T_robot * Vector2(p.x_m, p.y_m);
-    if (from_lidar.norm() < blind_m_ + kOutside_m) near_[sector_of(from_lidar)] = {{p.x_m, p.y_m}, end};
+    if (from_lidar.norm() < blind_m_ + kOutside_m) near_[sector_of(from_lidar)] = {{p.x_m, p.y_m}, end, 1};
   }
   if (!knows) return;
   const auto farthest_m = sight(scan);
@@ -67,9 +70,11 @@ void NearMemory::add_to(std::vector<ObstaclePoint>& points, const Scan& scan, co
     const Vector2 at = now_T_before * was->at;
     const Vector2 from_lidar = lidar_T_robot * at;
     auto& place = near_[sector_of(from_lidar)];
+    if (place && place->seen == end && (place->at - at).norm() < kSamePlace_m) place->times = was->times + 1;
     if (place || from_lidar.norm() > blind_m_ + kOutside_m || is_gone(from_lidar)) continue;
-    place = {at, was->seen};
-    const double nearer = std::min(1.0, kHiddenAt * blind_m_ / from_lidar.norm());
+    place = {at, was->seen, was->times};
+    const double share = was->times >= kStands ? kStoodAt : kCameAt;
+    const double nearer = std::min(1.0, share * blind_m_ / from_lidar.norm());
     const Vector2 p = robot_T_lidar * (nearer * from_lidar);
     const bool own_body = std::abs(p.x()) <= body.half_length_m() && std::abs(p.y()) <= body.half_width_m();
     if (!own_body) points.push_back({static_cast<float>(p.x()), static_cast<float>(p.y())});

@@ -12,8 +12,9 @@ namespace dynslam {
 
 /// A lidar is blind to what is very near (RPLIDAR A3: 0.2 m from its middle, which is beside the robot's
 /// corners): a door leaf that came so near is still there though no beam says so. Keeps what was seen there
-/// last, carried along as the robot moves, in those directions from which nothing comes back, and takes it to
-/// be as near as is not seen. One thread.
+/// last, carried along as the robot moves, in those directions from which nothing comes back. What stood
+/// still while it was seen is where it was, but for what is not seen; what came suddenly is taken to be
+/// nearer. One thread.
 class NearMemory {
  public:
   /// Points nearer to the lidar than this are hidden.
@@ -30,6 +31,7 @@ class NearMemory {
   struct Seen {
     Vector2 at;  ///< from the robot at the last scan's end
     Time seen;   ///< last
+    int times;   ///< one after the other, at the same place
   };
   using Near = std::array<std::optional<Seen>, kSectors>;
 
