@@ -17,6 +17,8 @@ constexpr double kBetter = 0.9;
 constexpr Duration kStepsAside = std::chrono::seconds(8);
 /// A route's end is not farther away when its follower has arrived there.
 constexpr double kAtEnd_m = 0.5;
+/// To look whether the way is still shut, it is not worth to drive less far.
+constexpr double kWorthLooking_m = 1.0;
 /// The follower knows how fast it drives.
 constexpr double kNoLimit_mps = 100.0;
 
@@ -44,7 +46,7 @@ void Navigator::give_up() {
   planned_at_.reset();
   held_up_since_.reset();
   near_since_.reset();
-  had_route_ = was_free_ = false;
+  had_route_ = was_free_ = approaches_ = looked_ = false;
 }
 
 void Navigator::plan_anew() {
@@ -57,8 +59,14 @@ Navigator::Report Navigator::turn(Time now, const Pose2& map_T_robot, const Cost
                                   const FollowReport& follow) {
   if (!to_) return {};
   const bool is_news = task_ && follow.task == task_->id;
-  if (is_news && is_arrival(now, map_T_robot, follow))
-    return end(State::kArrived, last_plan_->outcome == PlanOutcome::kNearby ? last_plan_->reason : "");
+  const bool arrives = is_news && is_arrival(now, map_T_robot, follow);
+  if (arrives && approaches_) {
+    looked_ = true;
+    plan_anew();
+  } else if (arrives) {
+    return end(State::kArrived,
+               last_plan_->outcome == PlanOutcome::kNearby ? last_plan_->reason : follow.reason);
+  }
   if (is_news && follow.state == Following::kStuck) return end(State::kStuck, follow.reason);
   if (is_route_due(now, costmap, follow)) plan(now, map_T_robot, costmap, follow);
   if (!task_) {
@@ -76,7 +84,8 @@ Navigator::Report Navigator::turn(Time now, const Pose2& map_T_robot, const Cost
 bool Navigator::is_arrival(Time now, const Pose2& map_T_robot, const FollowReport& follow) {
   const bool is_there = follow.state == Following::kArrived &&
                         (task_->route_map.back() - map_T_robot.translation()).norm() <= kAtEnd_m;
-  const bool may_get_free = stops_ && was_free_ && last_plan_->outcome == PlanOutcome::kNearby;
+  const bool may_get_free =
+      stops_ && was_free_ && !approaches_ && last_plan_->outcome == PlanOutcome::kNearby;
   if (!is_there || !may_get_free) near_since_.reset();
   if (!is_there || !may_get_free) return is_there;
   if (!near_since_ || now < *near_since_) near_since_ = now;
@@ -100,15 +109,32 @@ void Navigator::plan(Time now, const Pose2& map_T_robot, const Costmap& costmap,
   planned_at_ = now;
   Plan plan = planner_.plan(costmap, {map_T_robot.translation(), to_->point_map});
   was_free_ = was_free_ || plan.outcome == PlanOutcome::kFound;
+  const bool is_shut = plan.outcome == PlanOutcome::kNoRoute;
+  if (is_shut) plan = approach(std::move(plan), map_T_robot.translation(), costmap);
+  const bool approaches = is_shut && plan.outcome != PlanOutcome::kNoRoute;
+  const bool is_another = approaches != std::exchange(approaches_, approaches);
   if (plan.outcome == PlanOutcome::kNoRoute) {
     task_.reset();
-  } else if (!task_ || is_better(plan, costmap, follow)) {
-    had_route_ = true;
-    task_ = DriveTask{errands_, plan.route_map, to_->yaw_rad, kNoLimit_mps, stops_};
+  } else if (!task_ || is_another || is_better(plan, costmap, follow)) {
+    had_route_ = had_route_ || !approaches;
+    task_ =
+        DriveTask{errands_, plan.route_map, approaches ? std::nullopt : to_->yaw_rad, kNoLimit_mps, stops_};
   } else {
     return;  // the plan that is being driven stays the last one
   }
   last_plan_ = std::move(plan);
+}
+
+/// Instead of no route to where one could stand, as far as is known: to the place nearest to there, once.
+Plan Navigator::approach(Plan plan, const Vector2& robot_map, const Costmap& costmap) {
+  if (!stops_ || looked_ || !plan.nearest_map || !(plan.is_cut_off || was_free_)) return plan;
+  if ((*plan.nearest_map - robot_map).norm() < kWorthLooking_m) return plan;
+  Plan nearer = planner_.plan(costmap, {robot_map, *plan.nearest_map});
+  if (nearer.outcome == PlanOutcome::kNoRoute) return plan;
+  nearer.outcome = PlanOutcome::kNearby;
+  nearer.reason = plan.reason;
+  nearer.nearest_map = plan.nearest_map;
+  return nearer;
 }
 
 bool Navigator::is_better(const Plan& plan, const Costmap& costmap, const FollowReport& follow) const {

@@ -37,7 +37,8 @@ struct FollowReport {
 };
 
 /// Brings the robot to one destination: keeps a route to it good while the follower drives along it, and
-/// knows when to wait, and when there is no way. Pure; one thread.
+/// knows when to wait, and when there is no way. What shut the way may be gone since it was seen: it drives
+/// as near as it can come before it says so. Pure; one thread.
 class Navigator {
  public:
   enum class State {
@@ -71,6 +72,7 @@ class Navigator {
   bool is_route_due(Time now, const Costmap& costmap, const FollowReport& follow) const;
   void plan(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow);
   bool is_arrival(Time now, const Pose2& map_T_robot, const FollowReport& follow);
+  Plan approach(Plan plan, const Vector2& robot_map, const Costmap& costmap);
   bool is_better(const Plan& plan, const Costmap& costmap, const FollowReport& follow) const;
   bool is_blocked(const Costmap& costmap, const FollowReport& follow) const;
   Report wait(Time now, const std::string& reason);
@@ -85,6 +87,8 @@ class Navigator {
   bool had_route_ = false;
   bool was_free_ = false;           ///< the destination, to stand at
   std::optional<Time> near_since_;  ///< it stands as near as it can come
+  bool approaches_ = false;         ///< the way that it knows of is shut: it drives there to look again
+  bool looked_ = false;             ///< it did
   std::optional<Plan> last_plan_;
   std::optional<Time> planned_at_;
   std::optional<Time> held_up_since_;

@@ -17,6 +17,8 @@ constexpr double kBackward_m = 0.3, kForward_m = 0.5;
 constexpr double kStandsUnder_radps = 0.1;
 constexpr Duration kRest = std::chrono::milliseconds(300);
 constexpr double kHeadingShare = 0.8;  ///< of what may be off at the goal; the rest is for the pose's noise
+/// At the goal it tries for so long to face where it should; a full turn takes five seconds at most.
+constexpr Duration kTurnsAtGoal = std::chrono::seconds(7);
 constexpr Duration kHeldLately = std::chrono::seconds(1);
 constexpr double kMoved_m = 0.05, kMoved_rad = 0.09;
 
@@ -78,7 +80,10 @@ void PathFollower::follow(const DriveTask& task) {
   backed_m_ = backs_until_m_ = 0.0;
   stuck_ = false;
   if (now_) anchor_at_ = followed_at_ = *now_;
-  if (!same_goal) at_goal_ = arrived_ = false;
+  if (!same_goal) {
+    at_goal_since_.reset();
+    arrived_.reset();
+  }
   if (goes_on) return;
   misses_ = 0;
   turning_ = 0;
@@ -116,7 +121,7 @@ FollowOutput PathFollower::next(const FollowInputs& in, const RecentMotion& moti
   if (!problem_.empty()) return rest(Following::kBlocked, problem_);
   if (route_.empty()) return rest(Following::kIdle, "no route");
   find_progress();
-  if (arrived_) return rest(Following::kArrived);
+  if (arrived_) return rest(Following::kArrived, *arrived_);
   if (stuck_) return rest(Following::kStuck, "told to move, but does not");
   const Tick tick{in.now, in.measured, motion};
   FollowOutput out;
@@ -167,11 +172,12 @@ std::optional<FollowOutput> PathFollower::come_to_goal(const Tick& tick) {
   const double enough_m = !task_->stops_at_end ? config_.pass_m
                           : goal.x() > 0.0     ? 0.5 * config_.goal_m  // it still comes nearer
                                                : 0.8 * config_.goal_m;
-  if (away_m <= enough_m && is_near_goal()) at_goal_ = true;
-  if (!at_goal_) return std::nullopt;
+  if (away_m <= enough_m && is_near_goal() && !at_goal_since_) at_goal_since_ = tick.now;
+  if (!at_goal_since_) return std::nullopt;
   const bool swings = turning_ != 0 && !is_at_rest(tick.now);
   if (swings && !is_moving(last_)) return rest(Following::kTurning);  // where it comes to rest is a guess
-  if (task_->stops_at_end && !faces_goal_heading(tick)) {
+  const bool faces = !task_->stops_at_end || faces_goal_heading(tick);
+  if (!faces && tick.now - *at_goal_since_ < kTurnsAtGoal) {
     const double left = turn(pose_.yaw, *task_->yaw_rad);
     if (turning_ == 0) begin_turn(left);
     return turn_by(tick, left, false);  // it is where it is to be
@@ -179,10 +185,10 @@ std::optional<FollowOutput> PathFollower::come_to_goal(const Tick& tick) {
   if (swings) return rest(Following::kTurning);
   turning_ = 0;
   if (!task_->stops_at_end || away_m <= config_.goal_m) {
-    arrived_ = true;
-    return rest(Following::kArrived);
+    arrived_ = faces ? "" : "there is no room to turn";
+    return rest(Following::kArrived, *arrived_);
   }
-  at_goal_ = false;  // it was turned off it
+  at_goal_since_.reset();  // it was turned off it
   ++misses_;
   return std::nullopt;
 }

@@ -109,10 +109,10 @@ class PathFollower {
   Time followed_at_;        ///< when the route came
   bool new_route_ = false;  ///< where along it the robot is must yet be found
   double progress_m_ = 0.0;
-  bool at_goal_ = false;  ///< but for the heading
-  bool arrived_ = false;
-  int misses_ = 0;      ///< of the goal
-  bool stuck_ = false;  ///< until follow()
+  std::optional<Time> at_goal_since_;   ///< but for the heading
+  std::optional<std::string> arrived_;  ///< and what is not as it should be there
+  int misses_ = 0;                      ///< of the goal
+  bool stuck_ = false;                  ///< until follow()
 
   std::optional<Time> now_;
   Pose2 pose_;                     ///< of the robot in the map, smoothed

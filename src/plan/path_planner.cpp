@@ -80,6 +80,7 @@ Plan PathPlanner::plan(const Costmap& costmap, const PlanRequest& request) {
   }
   if (!found.last) {
     plan.nearest_map = best_point(costmap, found.end);
+    plan.is_cut_off = !found.gave_up && !trouble_at(costmap, cells, goal);
     return plan;
   }
   plan.outcome = found.exactly ? PlanOutcome::kFound : PlanOutcome::kNearby;

@@ -33,6 +33,7 @@ struct Plan {
   std::vector<Vector2> route_map;  ///< from the start to the end, straight legs between
   double length_m = 0.0;
   std::string reason;                  ///< why not to the goal, for people; empty when kFound
+  bool is_cut_off = false;             ///< kNoRoute though the goal has room
   std::optional<Vector2> nearest_map;  ///< of kNoRoute: the reachable place nearest to the goal, if any
 };
 

@@ -152,16 +152,33 @@ TEST(Autopilot, WaitsForADoorThatClosesInMidDriveAndSaysSoWhenItStaysShut) {
   pilot.building.wall_up('d');
   pilot.building.know_all();
   AutopilotStatus status = pilot.turn();
-  for (int i = 0; i < 5; ++i) status = pilot.turn();
+  for (int i = 0; i < 100 && pilot.autopilot.task(); ++i) status = pilot.turn();
+  EXPECT_FALSE(pilot.autopilot.task()) << "it stands";
+  EXPECT_GT(pilot.at.x, pilot.building.kLetter_m * 11) << "before the door, to look at it";
+  status = pilot.turn();
   EXPECT_EQ(status.phase, AutopilotPhase::kActive);
   EXPECT_THAT(status.reason, Not(IsEmpty()));
-  EXPECT_FALSE(pilot.autopilot.task()) << "it stands";
   const Time shut = pilot.now;
   status = pilot.run();
   EXPECT_EQ(status.phase, AutopilotPhase::kStopped);
   EXPECT_THAT(status.reason, HasSubstr("no route"));
   EXPECT_GT(pilot.now - shut, std::chrono::seconds(10));
   EXPECT_LT(pilot.at.x, pilot.building.kLetter_m * 14);
+}
+
+TEST(Autopilot, LooksWhetherADoorThatWasShutIsStillSo) {
+  KnownFlat pilot;
+  pilot.building.wall_up('d');
+  pilot.building.know_all();
+  pilot.turn();
+  pilot.turn(GoThere{{pilot.building.find('g'), 1.0}});
+  ASSERT_TRUE(pilot.autopilot.task());
+  EXPECT_FALSE(pilot.autopilot.task()->yaw_rad) << "of no matter before the door";
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kActive);
+  pilot.building.open('#');  // all walls fall
+  pilot.building.know_all();
+  EXPECT_EQ(pilot.run().reason, "arrived");
+  EXPECT_LT(pilot.away_m(pilot.building.find('g')), 0.01);
 }
 
 TEST(Autopilot, DrivesOnWhenTheDoorOpensAgain) {

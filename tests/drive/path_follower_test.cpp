@@ -274,6 +274,19 @@ TEST(PathFollower, BacksOutOfADeadEndThatIsTooNarrowForATurn) {
   }
 }
 
+TEST(PathFollower, ArrivesWhereItHasNoRoomToTurnAndSaysSo) {
+  // An alley that it can drive into, and no more.
+  ToyRobot robot({{{0.5, 0.16, 2, 0.16}, {0.5, -0.16, 2, -0.16}}, {}}, ToyFaults{});
+  robot.follower.follow(route({{0, 0}, {1.2, 0}}, kPi / 2));
+  const FollowOutput out =
+      robot.run(30.0, [](const FollowOutput& o) { return o.state == Following::kArrived; });
+  EXPECT_EQ(out.state, Following::kArrived);
+  EXPECT_EQ(out.reason, "there is no room to turn");
+  EXPECT_LT(robot.seconds(), 20.0);
+  EXPECT_LT(off_goal_m(robot, {1.2, 0}), 0.06);
+  EXPECT_GT(robot.least_gap_m, 0.005);
+}
+
 TEST(PathFollower, SaysThatItIsBlockedWhereItCanNeitherTurnNorBack) {
   const DrawnWorld box{{{-0.2, 0.16, 0.2, 0.16},
                         {-0.2, -0.16, 0.2, -0.16},
