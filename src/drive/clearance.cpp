@@ -63,35 +63,37 @@ double Clearance::nearest_m(Time now, const RecentMotion& motion) const {
   return nearest;
 }
 
-ClearWay Clearance::way(Time now, const Twist& twist, const RecentMotion& motion) const {
-  if (!is_moving(twist)) return {};
-  if (!end_) return {0.0};
-  // Where the scan's points are if the robot drove since, and if it only turned, or not even that.
+/// Where the scan's points are if the robot drove since, and if it only turned, or not even that.
+Clearance::Contact Clearance::first_contact(Time now, const Twist& twist, const RecentMotion& motion,
+                                            double side_margin_m) const {
   const Pose2 moved = motion.between(*end_, now).inverse();
   const Pose2 stayed{0.0, 0.0, motion.knows_turns() ? moved.yaw : 0.0};
+  const double horizon_m =
+      stopping_distance_m(std::max({body_speed_mps(twist), config_.creep_mps, kLeastSpeed_mps}));
+  const Sweep sweep(body_, {config_.stop_margin_m, side_margin_m}, twist);
+  const Contact first = first_contact(sweep, moved, horizon_m);
+  if (moved == stayed) return first;
+  const Contact other = first_contact(sweep, stayed, horizon_m);
+  return other.time_s < first.time_s ? other : first;
+}
 
+double Clearance::free_m(Time now, const Twist& twist, const RecentMotion& motion,
+                         double side_margin_m) const {
+  return first_contact(now, twist, motion, side_margin_m).time_s * body_speed_mps(twist);
+}
+
+ClearWay Clearance::way(Time now, const Twist& twist, const RecentMotion& motion) const {
+  if (!is_moving(twist)) return {};
+  if (!end_) return {0.0, 0.0};
   const double speed = body_speed_mps(twist);
-  const double horizon_m = stopping_distance_m(std::max({speed, config_.creep_mps, kLeastSpeed_mps}));
-  const auto contact = [&](double side_margin_m) {
-    const Sweep sweep(body_, {config_.stop_margin_m, side_margin_m}, twist);
-    Contact first = first_contact(sweep, moved, horizon_m);
-    if (moved == stayed) return first;
-    const Contact other = first_contact(sweep, stayed, horizon_m);
-    return other.time_s < first.time_s ? other : first;
-  };
-
-  Contact nearest = contact(config_.side_margin_m);
-  const double roomy_m = nearest.time_s * speed;
-  double free_m = roomy_m, allowed = safe_speed_mps(roomy_m);
+  const Contact nearest = first_contact(now, twist, motion, config_.side_margin_m);
+  double allowed = safe_speed_mps(nearest.time_s * speed);
   if (allowed < std::min(speed, config_.creep_mps)) {
-    const Contact creeping = contact(config_.creep_margin_m);
-    const double creeping_m = creeping.time_s * speed;
-    const double slow = std::min(config_.creep_mps, safe_speed_mps(creeping_m));
-    free_m = std::max(free_m, creeping_m);
-    allowed = std::max(allowed, slow);
+    const double creeping_m = free_m(now, twist, motion, config_.creep_margin_m);
+    allowed = std::max(allowed, std::min(config_.creep_mps, safe_speed_mps(creeping_m)));
   }
-  if (allowed < kLeastSpeed_mps) return {0.0, nearest.distance_m, free_m, roomy_m};
-  return {std::min(1.0, allowed / speed), nearest.distance_m, free_m, roomy_m};
+  if (allowed < kLeastSpeed_mps) return {0.0, nearest.distance_m};
+  return {std::min(1.0, allowed / speed), nearest.distance_m};
 }
 
 }  // namespace dynslam

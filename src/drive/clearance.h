@@ -53,8 +53,6 @@ struct ClearanceConfig {
 struct ClearWay {
   double share = 1.0;       ///< of the wanted twist, at which the robot stops in time; 0: not that way
   double distance_m = 0.0;  ///< from the body to what limits it, when share < 1
-  double free_m = 0.0;      ///< so far the body's fastest point can go, if need be creeping,
-  double roomy_m = 0.0;     ///< and so far with side_margin_m left on the sides
 };
 
 /// The collision zone: sweeps the robot's rectangle along the arc that is wanted through the newest scan's
@@ -77,6 +75,10 @@ class Clearance {
   /// not. The allowed speed depends on the arc, not on how fast it is asked for. REQUIRES: finite.
   ClearWay way(Time now, const Twist& twist, const RecentMotion& motion) const;
 
+  /// So far the body's fastest point can go along `twist` with so much room left on the sides; infinite when
+  /// nothing is in its way. REQUIRES: a scan, and finite.
+  double free_m(Time now, const Twist& twist, const RecentMotion& motion, double side_margin_m) const;
+
   /// From the body to the nearest thing that is ahead or beside; infinite when nothing is.
   double nearest_m(Time now, const RecentMotion& motion) const;
 
@@ -94,6 +96,7 @@ class Clearance {
     double time_s, distance_m;
   };
   Contact first_contact(const Sweep& sweep, const Pose2& now_T_end, double horizon_m) const;
+  Contact first_contact(Time now, const Twist& twist, const RecentMotion& motion, double side_margin_m) const;
   double distance_to_body_m(double x, double y) const;
 
   BodyConfig body_;

@@ -15,6 +15,12 @@ constexpr float kNear_m = 0.06F;
 constexpr float kNearShare = 0.06F;
 constexpr std::size_t kNeighbours = 2;  ///< that are looked at on either side: one may have failed
 
+/// Things nearer than this are seen calmly: by the mean of the beams within so much on either side.
+constexpr float kCalm_m = 0.6F;
+constexpr float kBeside_m = 0.006F;
+constexpr std::size_t kMostBeside = 8;
+constexpr float kSameThing_m = 0.04F;
+
 float time_of(const Beam& beam) {
   return beam.time_s > 0.0F && beam.time_s <= kLongestScan_s ? beam.time_s : 0.0F;
 }
@@ -57,6 +63,27 @@ struct SeenPoint {
   bool valid = false;
 };
 
+/// The range of a beam, of near things as their neighbouring beams have it too. Of many beams the shortest is
+/// off by more than twice the noise of one, which is as much as the room in which a robot has to turn.
+float calm_range_m(const Scan& scan, std::size_t i) {
+  const std::size_t n = scan.beams.size();
+  const float range = scan.beams[i].range_m;
+  if (range >= kCalm_m) return range;
+  const float spacing_m = range * static_cast<float>(kTwoPi) / static_cast<float>(n);
+  const auto beside = std::min({kMostBeside, static_cast<std::size_t>(kBeside_m / spacing_m), n / 2});
+  float sum = range;
+  int count = 1;
+  for (std::size_t step = 1; step <= beside; ++step) {
+    for (const std::size_t at : {(i + n - step) % n, (i + step) % n}) {
+      const Beam& other = scan.beams[at];
+      if (!is_return(other) || std::abs(other.range_m - range) > kSameThing_m) continue;
+      sum += other.range_m;
+      ++count;
+    }
+  }
+  return sum / static_cast<float>(count);
+}
+
 std::vector<SeenPoint> seen_points(const Scan& scan, const BodyConfig& body, double min_range_m) {
   const Carry mount = carry_of(scan.mount.robot_T_lidar);
   const float side = scan.mount.upside_down ? -1.0F : 1.0F;
@@ -66,8 +93,9 @@ std::vector<SeenPoint> seen_points(const Scan& scan, const BodyConfig& body, dou
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const Beam& beam = scan.beams[i];
     if (!is_return(beam) || !std::isfinite(beam.angle_rad) || beam.range_m < min_range_m) continue;
-    const ObstaclePoint p = mount * ObstaclePoint{beam.range_m * std::cos(beam.angle_rad),
-                                                  side * beam.range_m * std::sin(beam.angle_rad)};
+    const float range_m = calm_range_m(scan, i);
+    const ObstaclePoint p =
+        mount * ObstaclePoint{range_m * std::cos(beam.angle_rad), side * range_m * std::sin(beam.angle_rad)};
     const bool own_body = std::abs(p.x_m) <= half_length && std::abs(p.y_m) <= half_width;
     seen[i] = {p, beam.range_m, !own_body};
   }

@@ -64,7 +64,7 @@ const char* to_string(Following state) {
 
 PathFollower::PathFollower(const FollowerConfig& config, const BodyConfig& body,
                            const ClearanceConfig& clearance)
-    : config_(config), body_(body), clearance_(body, clearance) {}
+    : config_(config), body_(body), room_(clearance), clearance_(body, clearance) {}
 
 void PathFollower::follow(const DriveTask& task) {
   const bool goes_on = task_ && task_->id == task.id;

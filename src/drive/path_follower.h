@@ -101,6 +101,7 @@ class PathFollower {
 
   FollowerConfig config_;
   BodyConfig body_;
+  ClearanceConfig room_;
   Clearance clearance_;
 
   std::optional<DriveTask> task_;

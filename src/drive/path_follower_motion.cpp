@@ -160,8 +160,12 @@ PathFollower::Turn PathFollower::turn_to(const Tick& tick, int side, double left
   const Twist twist{0.0, side * way.share * speed};
   const bool goes_on =
       last_.w_radps * side > 0.0 && std::abs(twist.w_radps) >= std::min(speed, kWorthTurning_radps);
-  const double room_m = backed_m_ > 0.0 ? way.roomy_m : way.free_m;  // what it backs for is a good turn
-  return {twist, way, goes_on || room_m >= left * body_.radius_m()};
+  if (goes_on) return {twist, way, true};
+  // What it backs for is a good turn.
+  const double margin_m = backed_m_ > 0.0 ? room_.side_margin_m : room_.creep_margin_m;
+  const bool is_free =
+      clearance_.free_m(tick.now, {0.0, side * speed}, tick.motion, margin_m) >= left * body_.radius_m();
+  return {twist, way, is_free};
 }
 
 /// In the direction of turning_ when all of it is free; else a little back; else as far as it goes, this way

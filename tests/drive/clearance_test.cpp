@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -43,6 +44,26 @@ TEST(Clearance, StopsInTimeForAWallAhead) {
     EXPECT_LT(share, 1.0) << v;
     EXPECT_GT(share, 0.0) << v;
   }
+}
+
+/// Each beam of a lidar is off by a centimetre; that all of a hundred are not is no reason not to turn.
+TEST(Clearance, NoiseDoesNotTakeTheRoomToTurn) {
+  std::mt19937 random(3);
+  std::normal_distribution<float> noise(0.0F, 0.011F);
+  for (const double away_m : {0.215, 0.23}) {
+    const DrawnWorld alcove{{{-1, away_m, 1, away_m}, {away_m, -1, away_m, 1}}, {}};
+    for (int i = 0; i < 20; ++i) {
+      Scan scan = scan_of(alcove, {}, 1600);
+      for (Beam& beam : scan.beams) beam.range_m += noise(random);
+      Clearance clearance;
+      clearance.see(scan, {});
+      EXPECT_GT(clearance.free_m(end_of(scan), {0, 0.5}, {}, 0.01), 1.0) << away_m;
+    }
+  }
+  Scan thin = scan_of({{}, {{0.16, 0.0, 0.005}}}, {}, 1600);
+  for (Beam& beam : thin.beams) beam.range_m += noise(random);
+  EXPECT_EQ(way_in(thin, kAhead).share, 0.0) << "a pencil";
+  EXPECT_LT(way_in(thin, {0, 3.0}).share, 0.5);
 }
 
 TEST(Clearance, TheAllowedSpeedStopsWithinTheWay) {
