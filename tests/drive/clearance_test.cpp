@@ -50,7 +50,7 @@ TEST(Clearance, StopsInTimeForAWallAhead) {
 TEST(Clearance, NoiseDoesNotTakeTheRoomToTurn) {
   std::mt19937 random(3);
   std::normal_distribution<float> noise(0.0F, 0.011F);
-  for (const double away_m : {0.215, 0.23}) {
+  for (const double away_m : {0.22, 0.23}) {
     const DrawnWorld alcove{{{-1, away_m, 1, away_m}, {away_m, -1, away_m, 1}}, {}};
     for (int i = 0; i < 20; ++i) {
       Scan scan = scan_of(alcove, {}, 1600);
