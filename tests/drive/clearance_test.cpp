@@ -226,6 +226,20 @@ TEST(Clearance, RemembersWhatIsTooNearToBeSeen) {
   EXPECT_EQ(seen_coming.way(now + milliseconds(200), kLeft, {}).share, 1.0) << "one sees where it was";
 }
 
+/// By its noise what is at 24 cm seems to be nearer at times; it is seen still, and not hidden.
+TEST(Clearance, RemembersNothingInsteadOfWhatItSees) {
+  std::mt19937 random(7);
+  std::normal_distribution<float> noise(0.0F, 0.011F);
+  Clearance clearance;
+  for (int i = 0; i < 50; ++i) {
+    Scan scan = scan_of(DrawnWorld{{{-1, 0.24, 1, 0.24}, {0.24, -1, 0.24, 1}}, {}},
+                        Time(milliseconds(100 * i)), 1200);
+    for (Beam& beam : scan.beams) beam.range_m += noise(random);
+    clearance.see(scan, {});
+    EXPECT_GT(clearance.free_m(end_of(scan), {0, 0.5}, {}, 0.01), 1.0) << i;
+  }
+}
+
 TEST(Clearance, WhatIsTooNearStaysBehindAsTheRobotDrivesOn) {
   RecentMotion motion;
   Clearance clearance;
