@@ -23,6 +23,8 @@ constexpr Duration kLookEvery = std::chrono::seconds(1);
 }  // namespace
 
 struct Caretaker::Things {
+  explicit Things(std::filesystem::path root) : computer(std::move(root)) {}
+
   PiWatch computer;
   DeviceHealth health;
   Time look_at;
@@ -32,8 +34,9 @@ struct Caretaker::Things {
 #endif
 };
 
-Caretaker::Caretaker(Ports& ports, const Clock& clock, [[maybe_unused]] const Config& config)
-    : ports_(ports), clock_(clock), things_(std::make_unique<Things>()) {
+Caretaker::Caretaker(Ports& ports, const Clock& clock, [[maybe_unused]] const Config& config,
+                     std::filesystem::path root)
+    : ports_(ports), clock_(clock), things_(std::make_unique<Things>(std::move(root))) {
 #ifdef DYNSLAM_HAS_GPIO
   things_->light = make_status_light_pin(config.hardware.gpio);
 #endif
@@ -91,6 +94,7 @@ void Caretaker::look_at_computer() {
   const Time now = clock_.now();
   things_->look_at = now + kLookEvery;
   const PiState state = things_->computer.read();
+  ports_.supply_low = state.under_voltage.value_or(false);
   DeviceHealth& health = things_->health;
   health.present = state.flags || state.under_voltage || state.temperature_c;
   if (!health.present) return;
