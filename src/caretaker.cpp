@@ -27,7 +27,7 @@ struct Caretaker::Things {
 
   PiWatch computer;
   DeviceHealth health;
-  Time look_at;
+  Time look_at, light_at;
   std::map<std::string, std::string> told;  ///< the trouble of each device
 #ifdef DYNSLAM_HAS_GPIO
   std::unique_ptr<OutputPin> light;
@@ -81,11 +81,16 @@ void Caretaker::tell_troubles() {
 void Caretaker::show_light() {
 #ifdef DYNSLAM_HAS_GPIO
   const auto drive = ports_.drive.get().value;
-  if (!things_->light || !drive) return;
+  if (!things_->light || !drive || clock_.now() < things_->light_at) return;
+  std::string& told = things_->told["light"];
   try {
     things_->light->set(status_light(drive->verdict.motion, clock_.now()));
-  } catch (const DeviceError&) {
-    // A robot without its light drives as well, and the next call tries again.
+    told.clear();
+  } catch (const DeviceError& e) {
+    // A robot without its light drives as well.
+    things_->light_at = clock_.now() + kLookEvery;
+    if (told != e.what()) spdlog::warn("{}", e.what());
+    told = e.what();
   }
 #endif
 }
