@@ -53,6 +53,7 @@ void ControlStage::turn() {
 
   const Time now = clock_.now();
   const DriveOutput out = control_.step(now, inputs_);
+  if (motors_) motors_->show(out.verdict.motion);
   const bool driven = drive(out.power);
   const auto& command = inputs_.command;
   if (driven && command &&
