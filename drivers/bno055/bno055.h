@@ -69,6 +69,7 @@ class Bno055 : public Imu {
 
   Duration period_{};
   Time due_, status_due_;
+  Duration quickest_{};  ///< of the readings
   bno055::MotionCheck check_;
   int bad_readings_ = 0, bad_statuses_ = 0;  ///< in a row
   Time turned_;                              ///< when the robot last did
