@@ -88,6 +88,7 @@ void Bno055::begin() {
   const std::lock_guard lock(report_mutex_);
   report_.running = true;
   report_.identity = start_up_.identity();
+  report_.status = start_up_.status();
   report_.has_profile = start_up_.profile().has_value();
   report_.on_software_bus = chip_.is_software_bus();
 }

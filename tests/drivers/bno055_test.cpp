@@ -286,6 +286,13 @@ TEST_F(Bno055Test, GetsAlongWithASlowBus) {
   EXPECT_EQ(trouble_, "");
 }
 
+TEST_F(Bno055Test, TellsWithItsFirstSampleHowItIs) {
+  chip_.set_calibration(1, 3, 2, 0);
+  for (int ms = 0; ms < 3000 && !imu().next(clock_.now()); ++ms) clock_.set(clock_.now() + milliseconds(1));
+  EXPECT_EQ(imu().report().status.temperature_c, 25);
+  EXPECT_EQ(imu().report().status.calibration.gyroscope, 3);
+}
+
 TEST_F(Bno055Test, RefusesWhatIsNoBno055) {
   chip_.set_chip(0x42);
   EXPECT_TRUE(run(seconds(1)).empty());
