@@ -23,17 +23,20 @@ constexpr Duration kLookEvery = std::chrono::seconds(1);
 }  // namespace
 
 struct Caretaker::Things {
+  explicit Things(std::filesystem::path root) : computer(std::move(root)) {}
+
   PiWatch computer;
   DeviceHealth health;
-  Time look_at;
+  Time look_at, light_at;
   std::map<std::string, std::string> told;  ///< the trouble of each device
 #ifdef DYNSLAM_HAS_GPIO
   std::unique_ptr<OutputPin> light;
 #endif
 };
 
-Caretaker::Caretaker(Ports& ports, const Clock& clock, [[maybe_unused]] const Config& config)
-    : ports_(ports), clock_(clock), things_(std::make_unique<Things>()) {
+Caretaker::Caretaker(Ports& ports, const Clock& clock, [[maybe_unused]] const Config& config,
+                     std::filesystem::path root)
+    : ports_(ports), clock_(clock), things_(std::make_unique<Things>(std::move(root))) {
 #ifdef DYNSLAM_HAS_GPIO
   things_->light = make_status_light_pin(config.hardware.gpio);
 #endif
@@ -78,11 +81,16 @@ void Caretaker::tell_troubles() {
 void Caretaker::show_light() {
 #ifdef DYNSLAM_HAS_GPIO
   const auto drive = ports_.drive.get().value;
-  if (!things_->light || !drive) return;
+  if (!things_->light || !drive || clock_.now() < things_->light_at) return;
+  std::string& told = things_->told["light"];
   try {
     things_->light->set(status_light(drive->verdict.motion, clock_.now()));
-  } catch (const DeviceError&) {
-    // A robot without its light drives as well, and the next call tries again.
+    told.clear();
+  } catch (const DeviceError& e) {
+    // A robot without its light drives as well.
+    things_->light_at = clock_.now() + kLookEvery;
+    if (told != e.what()) spdlog::warn("{}", e.what());
+    told = e.what();
   }
 #endif
 }
@@ -91,6 +99,7 @@ void Caretaker::look_at_computer() {
   const Time now = clock_.now();
   things_->look_at = now + kLookEvery;
   const PiState state = things_->computer.read();
+  ports_.supply_low = state.under_voltage.value_or(false);
   DeviceHealth& health = things_->health;
   health.present = state.flags || state.under_voltage || state.temperature_c;
   if (!health.present) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -11,12 +12,13 @@
 
 namespace dynslam {
 
-/// What a robot does beside driving: its status light, and an eye on the computer's own supply and heat. A
-/// thread of its own, as the firmware may take its time to answer.
+/// What a robot does beside driving: its status light, and an eye on the computer's own supply and heat; a
+/// supply that is too low is told to who drives. A thread of its own, as the firmware may take its time to
+/// answer.
 class Caretaker {
  public:
-  /// Both must outlive it.
-  Caretaker(Ports& ports, const Clock& clock, const Config& config);
+  /// Ports and clock must outlive it; `root` is where /sys is.
+  Caretaker(Ports& ports, const Clock& clock, const Config& config, std::filesystem::path root = "/");
   ~Caretaker();
   Caretaker(const Caretaker&) = delete;
   Caretaker& operator=(const Caretaker&) = delete;

@@ -116,7 +116,7 @@ void Prober::imu() {
     while (!sample && clock_.now() < until) sample = imu.next(until);
     if (!sample)
       throw DeviceError(
-          "IMU: it answers, but measures nothing: give it a moment of rest, or its supply off and on");
+          "imu: it answers, but measures nothing: give it a moment of rest, or its supply off and on");
     const Bno055Report report = imu.report();
     say("imu", print("BNO055, software %x.%02x, on %s%s", report.identity.software >> 8,
                      report.identity.software & 0xff, config_.hardware.imu.bus.c_str(),
@@ -129,6 +129,7 @@ void Prober::imu() {
   });
 #else
   say("imu", "this program was built without its driver");
+  ++silent_;
 #endif
 }
 
@@ -175,12 +176,13 @@ void Prober::camera() {
     const auto cameras = list_cameras();
     if (cameras.empty())
       throw DeviceError(
-          "No camera: is its cable in the right way round, and does rpicam-hello find it? The robot drives "
-          "without.");
+          "camera: there is none: is its cable in the right way round, and does rpicam-hello find it? The "
+          "robot drives without");
     for (const CameraInfo& camera : cameras) say("camera", camera.model + ", " + camera.id);
   });
 #else
   say("camera", "this program was built without its driver");
+  ++silent_;
 #endif
 }
 

@@ -25,13 +25,28 @@
 namespace dynslam {
 namespace {
 
-[[maybe_unused]] constexpr const char* kNotBuiltIn = ": this program was built without its driver";
+[[noreturn]] [[maybe_unused]] void not_built_in(const std::string& device) {
+  throw DeviceError(device + ": this program was built without its driver");
+}
 
-/// Takes the place of a device whose driver is not there.
+// These take the place of devices that the configuration names and whose driver is not there: a robot must
+// not drive as if it had no e-stop.
 class NoMotors : public Motors {
  public:
-  void drive(const WheelPower&) override { throw DeviceError(std::string("motor board") + kNotBuiltIn); }
-  MotorState read() override { throw DeviceError(std::string("motor board") + kNotBuiltIn); }
+  void drive(const WheelPower&) override { not_built_in("motors"); }
+  MotorState read() override { not_built_in("motors"); }
+};
+class NoImu : public Imu {
+ public:
+  std::optional<ImuSample> next(Time) override { not_built_in("imu"); }
+};
+class NoCamera : public Camera {
+ public:
+  std::optional<JpegFrame> next(Time) override { not_built_in("camera"); }
+};
+class NoPins : public Pins {
+ public:
+  PinState read() override { not_built_in("pins"); }
 };
 
 [[maybe_unused]] constexpr const char* kProfileFile = "bno055-calibration";
@@ -88,21 +103,32 @@ Devices make_real_devices(const Config& config, const Clock& clock) {
   const HardwareConfig& hardware = config.hardware;
   Devices devices;
   devices.lidar = make_lidar(config, clock);
+  if (hardware.imu.has_imu()) {
 #ifdef DYNSLAM_HAS_BNO055
-  if (hardware.imu.has_imu())
     devices.imu = std::make_unique<Bno055>(hardware.imu, clock, profile_store(config.state.folder));
+#else
+    devices.imu = std::make_unique<NoImu>();
 #endif
+  }
 #ifdef DYNSLAM_HAS_THUNDERBORG
   devices.motors = std::make_unique<ThunderBorg>(hardware.motors, clock);
 #else
   devices.motors = std::make_unique<NoMotors>();
 #endif
+  if (hardware.camera.has_camera()) {
 #ifdef DYNSLAM_HAS_CAMERA
-  if (hardware.camera.has_camera()) devices.camera = std::make_unique<LiveCamera>(hardware.camera, clock);
+    devices.camera = std::make_unique<LiveCamera>(hardware.camera, clock);
+#else
+    devices.camera = std::make_unique<NoCamera>();
 #endif
+  }
+  if (hardware.gpio.has_pins()) {
 #ifdef DYNSLAM_HAS_GPIO
-  if (hardware.gpio.has_pins()) devices.pins = std::make_unique<GpioPins>(hardware.gpio, clock);
+    devices.pins = std::make_unique<GpioPins>(hardware.gpio, clock);
+#else
+    devices.pins = std::make_unique<NoPins>();
 #endif
+  }
   return devices;
 }
 

@@ -45,6 +45,8 @@ int run_robot(const Config& config) {
   keep_memory_steady();
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  // A terminal that goes away ends the robot too, unless it was started by nohup.
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   const RunningClock clock;
   Supervisor supervisor;
   RobotConfig own = robot_config(config);

@@ -5,8 +5,8 @@
 
 namespace dynslam {
 
-/// The robot, on its own hardware, until SIGTERM or SIGINT. Returns the exit code. Throws what stops its
-/// start.
+/// The robot, on its own hardware, until SIGTERM, SIGINT or SIGHUP. Returns the exit code. Throws what stops
+/// its start.
 int run_robot(const Config& config);
 
 }  // namespace dynslam

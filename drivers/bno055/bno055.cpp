@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "drivers/bno055/bno055.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
@@ -19,8 +20,8 @@ using std::chrono::milliseconds;
 constexpr int kMostBad = 5;
 constexpr int kMostBadStatuses = 3;
 constexpr int kMostFrozenLooks = 4;
-/// A transfer that took longer was interrupted, who knows where.
-constexpr Duration kLongestRead = milliseconds(10);
+/// A transfer that took so much longer than the quickest was interrupted, who knows where.
+constexpr Duration kInterruption = milliseconds(8);
 constexpr Duration kLookEvery = std::chrono::seconds(1);
 constexpr double kRate_hz = 100.0, kSoftwareBusRate_hz = 50.0;
 constexpr double kStill_radps = 0.03;
@@ -80,12 +81,14 @@ void Bno055::begin() {
   status_due_ = due_ + kLookEvery;
   turned_ = due_;
   check_.forget();
+  quickest_ = Duration::max() / 2;
   bad_readings_ = bad_statuses_ = frozen_looks_ = 0;
   temperature_c_.reset();
   changed_ = joins_ = true;
   const std::lock_guard lock(report_mutex_);
   report_.running = true;
   report_.identity = start_up_.identity();
+  report_.status = start_up_.status();
   report_.has_profile = start_up_.profile().has_value();
   report_.on_software_bus = chip_.is_software_bus();
 }
@@ -109,11 +112,12 @@ std::optional<ImuSample> Bno055::read() {
     if (++bad_readings_ >= kMostBad) give_up(chip_.failure(error));
     return std::nullopt;
   }
+  quickest_ = std::min(quickest_, ended - begun);
   changed_ = changed_ || bytes != newest_;
   newest_ = bytes;
   const Time stamp = begun + (ended - begun) / 2 - from_seconds(config_.latency_s);
   const MotionReading reading = bno055::decode_motion(bytes);
-  if (ended - begun > kLongestRead) {
+  if (ended - begun > quickest_ + kInterruption) {
     chip_.count("late");
   } else if (is_sound(stamp, reading)) {
     const ImuSample sample = join(stamp, reading.motion.world_q_robot);

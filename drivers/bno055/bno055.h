@@ -22,7 +22,7 @@ namespace dynslam {
 struct Bno055Report {
   bool running = false;
   bno055::Identity identity;
-  bno055::Status status;     ///< asked for once a second
+  bno055::Status status;     ///< asked for as it begins, then once a second
   bno055::Motion motion;     ///< the newest that was believed; its heading is the chip's own
   bool has_profile = false;  ///< of its calibration, that it was given or has found
   bool on_software_bus = false;
@@ -69,6 +69,7 @@ class Bno055 : public Imu {
 
   Duration period_{};
   Time due_, status_due_;
+  Duration quickest_{};  ///< of the readings
   bno055::MotionCheck check_;
   int bad_readings_ = 0, bad_statuses_ = 0;  ///< in a row
   Time turned_;                              ///< when the robot last did

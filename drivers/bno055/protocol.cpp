@@ -27,7 +27,7 @@ bool all_are(const Bytes& bytes, std::uint8_t value) {
 /// "x", "y", "z", with a minus or not.
 std::optional<Eigen::Vector3i> axis_of(std::string_view text) {
   const bool minus = text.starts_with('-');
-  if (minus || text.starts_with('+')) text.remove_prefix(1);
+  if (minus) text.remove_prefix(1);
   if (text.size() != 1 || text[0] < 'x' || text[0] > 'z') return std::nullopt;
   Eigen::Vector3i axis = Eigen::Vector3i::Zero();
   axis[text[0] - 'x'] = minus ? -1 : 1;

@@ -162,6 +162,7 @@ void StartUp::await_fusion() {
   const std::optional<Status> status = decode_status(bytes);
   if (status && status->is_fusing(mode())) {
     ++beginnings_;
+    status_ = *status;
     return next(Step::kSettle, kSettling);
   }
   if (clock_.now() < deadline_) return next(Step::kAwaitFusion, kAskEvery);

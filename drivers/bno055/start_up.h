@@ -33,6 +33,8 @@ class StartUp {
   /// How often fusion began: its heading begins anew each time.
   int beginnings() const { return beginnings_; }
   const Identity& identity() const { return identity_; }
+  /// As fusion began.
+  const Status& status() const { return status_; }
   std::uint8_t mode() const { return config_.use_compass ? kNdofMode : kImuMode; }
 
   /// What is written to the chip after a reset, if anything.
@@ -77,6 +79,7 @@ class StartUp {
   Time due_, deadline_;
   int beginnings_ = 0;
   Identity identity_;
+  Status status_;
   std::optional<Profile> profile_;
 };
 

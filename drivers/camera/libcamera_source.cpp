@@ -56,8 +56,7 @@ std::shared_ptr<lc::Camera> find_camera(const std::string& name) {
   if (cameras.empty())
     throw DeviceError(
         "camera: libcamera finds none: is the ribbon cable in, camera_auto_detect=1 in config.txt, and the "
-        "user "
-        "in group video?");
+        "user in group video?");
   throw DeviceError("camera: none is called '" + name + "'; there is " + info_of(*cameras.front()).id);
 }
 
@@ -151,6 +150,7 @@ void LibcameraSource::configure(const CameraConfig& config) {
   stream.size = {static_cast<unsigned>(config.width_px), static_cast<unsigned>(config.height_px)};
   stream.pixelFormat = lc::formats::YUV420;
   stream.bufferCount = kBuffers;
+  stream.colorSpace = lc::ColorSpace::Sycc;  // as JPEG has it; video's own would come out pale
   if (configuration_->validate() == lc::CameraConfiguration::Invalid ||
       stream.pixelFormat != lc::formats::YUV420)
     throw DeviceError("camera: it gives no YUV420 pictures of this size, but " + stream.toString());

@@ -42,8 +42,13 @@ bool PacketStream::is_witnessed(ByteView rest) const {
 void PacketStream::skip_byte() {
   ++counts_.skipped_bytes;
   in_step_ = false;
-  kept_.clear();
+  drop_kept();
   arrivals_.forget();
+}
+
+void PacketStream::drop_kept() {
+  gap_ = true;
+  kept_.clear();
 }
 
 void PacketStream::feed(ByteView bytes, Time read_at, std::vector<Sample>& out) {
@@ -94,12 +99,12 @@ Time PacketStream::time_of(std::size_t sample, Time came_at) const {
 
 void PacketStream::take_capsule(ByteView packet, Time came_at, std::vector<Sample>& out) {
   if (begins_anew(*form_.packet, packet)) {
-    kept_.clear();
+    drop_kept();
     anew_ = true;
   }
   if (start_deg(*form_.packet, packet) >= kTurn_deg) {
     ++counts_.odd_steps;
-    kept_.clear();
+    drop_kept();
     return;
   }
   if (!kept_.empty()) {
@@ -110,6 +115,7 @@ void PacketStream::take_capsule(ByteView packet, Time came_at, std::vector<Sampl
     const bool odd = step > longest || (usual_step_deg_ > 0.0F && step > kMostGain * usual_step_deg_);
     if (odd) {
       ++counts_.odd_steps;
+      drop_kept();
       arrivals_.forget();
     } else {
       emit_kept(packet, step, out);
@@ -127,9 +133,9 @@ void PacketStream::emit_kept(ByteView next, float step_deg, std::vector<Sample>&
   for (std::size_t k = 0; k < form_.packet->samples; ++k) {
     float turned = start + each * static_cast<float>(k);
     if (turned + each >= kTurn_deg) turned -= kTurn_deg;
-    out.push_back(
-        {time_of(k, kept_came_), turned, turned - beams_[k].back_deg, range_m(beams_[k].range_mm), anew_});
-    anew_ = false;
+    out.push_back({time_of(k, kept_came_), turned, turned - beams_[k].back_deg, range_m(beams_[k].range_mm),
+                   anew_, gap_});
+    anew_ = gap_ = false;
   }
 }
 
@@ -146,7 +152,7 @@ void PacketStream::take_nodes(ByteView packet, Time came_at, std::vector<Sample>
       turned_deg_ += on;
     }
     if (turned_deg_ > kTurnOver_deg) turned_deg_ -= kTurn_deg;
-    out.push_back({time_of(k, came_at), turned_deg_, turned_deg_, range_m(node.range_mm), anew_});
+    out.push_back({time_of(k, came_at), turned_deg_, turned_deg_, range_m(node.range_mm), anew_, false});
     anew_ = false;
   }
 }

@@ -18,6 +18,7 @@ struct Sample {
   float angle_deg = 0.0F;   ///< where it looked, up to 10 degrees off
   float range_m = 0.0F;     ///< as Beam::range_m
   bool anew = false;        ///< the lidar's angle has nothing to do with the ones before
+  bool after_gap = false;   ///< a capsule before it was lost
 };
 
 /// What the line carries.
@@ -51,6 +52,7 @@ class PacketStream {
   bool is_witnessed(ByteView rest) const;
   std::size_t bytes_needed() const;
   void skip_byte();
+  void drop_kept();
   Time read_time(std::size_t end, Time read_at) const;
   void take(ByteView packet, Time read_at, std::vector<Sample>& out);
   void take_capsule(ByteView packet, Time came_at, std::vector<Sample>& out);
@@ -69,6 +71,7 @@ class PacketStream {
   std::vector<std::uint8_t> kept_;  ///< the capsule before: decoded when the next one has come
   Time kept_came_;
   float usual_step_deg_ = 0.0F;  ///< from one capsule to the next; 0: not known
+  bool gap_ = false;             ///< none was decoded since one was lost
   bool anew_ = true;
   float turned_deg_ = 0.0F;  ///< of the newest node
   CapsuleBeams beams_;

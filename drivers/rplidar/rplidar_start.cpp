@@ -125,6 +125,7 @@ bool Start::ask_info(Time until) {
                       " baud: is it a lidar, and does it get its 5 V through a good cable?");
   }
   known_ = ways_.front();
+  motor_ = motor_of(*portrait_.info);
   return go(Phase::kHealth);
 }
 
@@ -165,12 +166,14 @@ bool Start::choose() {
   throw DeviceError("lidar: has no mode '" + config_.mode + "' but " + names + ": set rplidar.mode");
 }
 
+/// As far as the model says it.
+Start::Motor Start::motor_of(const DeviceInfo& info) {
+  if (info.family() == 1) return Motor::kDtr;
+  return info.family() >= 6 ? Motor::kRpm : Motor::kUnknown;
+}
+
 bool Start::ask_motor(Time until) {
-  const int family = portrait_.info->family();
-  if (family == 1 || family >= 6) {
-    motor_ = family == 1 ? Motor::kDtr : Motor::kRpm;
-    return true;
-  }
+  if (motor_ != Motor::kUnknown) return true;
   DeviceTalk::Question question{accessory_request(), AnswerType::kAccessory};
   question.accepts = [](ByteView answer) { return answer.size() == 4; };
   try {
@@ -234,7 +237,7 @@ void Start::stop() noexcept {
   if (talk_.port().is_open()) {
     try {
       talk_.say(request(Command::kStop));
-      if (phase_ > Phase::kMotor) {
+      if (motor_ != Motor::kUnknown) {  // even if it was started by somebody else, or by opening the port
         std::this_thread::sleep_for(kAfterStop);
         turn_motor(false);
       }

@@ -43,6 +43,7 @@ class Start {
  private:
   enum class Phase { kClosed, kQuieting, kAsking, kHealth, kResetting, kModes, kMotor, kScan, kMeasuring };
   enum class Motor { kUnknown, kDtr, kPwm, kRpm };
+  static Motor motor_of(const DeviceInfo& info);
   struct Way {
     std::string port;
     int baud;

@@ -9,7 +9,7 @@
 namespace dynslam::rplidar {
 namespace {
 
-/// More than corrections can differ from beam to beam, less than what a lost capsule leaves.
+/// More than corrections can differ from node to node.
 constexpr float kHole_deg = 15.0F;
 constexpr float kTurn_deg = 360.0F;
 /// No lidar takes more in a turn: this one's motor stands.
@@ -19,6 +19,7 @@ constexpr std::size_t kMostBeams = 20000;
 
 std::optional<Scan> TurnBuilder::add(const Sample& sample) {
   std::optional<Scan> done;
+  whole_ = whole_ && !sample.after_gap;
   if (sample.anew || scan_.beams.size() >= kMostBeams) {
     begin(sample);
   } else if (sample.turned_deg < turned_deg_ - 0.5F * kTurn_deg) {
@@ -41,7 +42,7 @@ std::optional<Scan> TurnBuilder::add(const Sample& sample) {
 void TurnBuilder::begin(const Sample& sample) {
   scan_ = {sample.time, {}, mount_};
   scan_.beams.reserve(usual_beams_ + usual_beams_ / 16);
-  whole_ = std::abs(sample.turned_deg) < kHole_deg;
+  whole_ = std::abs(sample.turned_deg) < kHole_deg && !sample.after_gap;
 }
 
 std::optional<Scan> TurnBuilder::finish() {

@@ -9,6 +9,22 @@ namespace {
 
 constexpr Duration kPause = std::chrono::milliseconds(200);
 
+/// Not so bright as to dazzle.
+LightColor color_of(Motion motion) {
+  switch (motion) {
+    case Motion::kGo:
+      return {0, 80, 0};
+    case Motion::kSlow:
+    case Motion::kHold:
+      return {80, 50, 0};
+    case Motion::kStop:
+      return {80, 0, 0};
+    case Motion::kEStop:
+      break;
+  }
+  return {80, 0, 80};
+}
+
 std::optional<std::uint8_t> decode_byte(const thunderborg::Answer& answer) { return answer[1]; }
 
 }  // namespace
@@ -158,6 +174,8 @@ void ThunderBorg::read_fault(Command question) {
 void ThunderBorg::set_light(const LightColor& color) {
   light_ = static_cast<std::uint32_t>(color.red << 16 | color.green << 8 | color.blue);
 }
+
+void ThunderBorg::show(Motion motion) { set_light(color_of(motion)); }
 
 void ThunderBorg::show_light() {
   const std::uint32_t light = light_;

@@ -41,6 +41,9 @@ class ThunderBorg : public Motors {
 
   void drive(const WheelPower& power) override;
   MotorState read() override;
+  /// Green while the robot may go, yellow when it is slowed down or held, red when it stands, and purple when
+  /// a person has to clear an e-stop.
+  void show(Motion motion) override;
 
   /// What both lights show from the next read() on. Any thread.
   void set_light(const LightColor& color);

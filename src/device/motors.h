@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/motor_state.h"
+#include "base/verdict.h"
 
 namespace dynslam {
 
@@ -13,6 +14,9 @@ class Motors {
   /// Sets the power of both sides, to be repeated every tick. REQUIRES: finite; values beyond 1 are cut.
   virtual void drive(const WheelPower& power) = 0;
   virtual MotorState read() = 0;
+  /// Shows people how far the robot may move, where the board has a light. Told every tick, seen some time
+  /// after it; never throws.
+  virtual void show(Motion) {}
 };
 
 }  // namespace dynslam

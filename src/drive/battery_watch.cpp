@@ -16,13 +16,14 @@ constexpr double kMost_v = 36.5;
 
 constexpr Duration kForgotten = seconds(5);        ///< without a reading, nothing is known any more
 constexpr Duration kBrownoutShown = seconds(2);    ///< long enough to be seen
-constexpr Duration kCutEvery = milliseconds(250);  ///< a cut takes so long to show in the voltage
+constexpr Duration kCutEvery = milliseconds(250);  ///< a cut takes so long to show in the voltage,
+constexpr Duration kSupplyCutEvery = seconds(1);   ///< and so long in what the computer says
 constexpr double kLeastPower = 0.2;
 constexpr double kShownStep = 0.05;
 
 }  // namespace
 
-bool BatteryWatch::update(Time now, std::optional<double> voltage_v) {
+bool BatteryWatch::update(Time now, std::optional<double> voltage_v, bool supply_low) {
   if (now_ && now < *now_) {
     const double power = power_share_;
     *this = BatteryWatch(config_);
@@ -33,12 +34,13 @@ bool BatteryWatch::update(Time now, std::optional<double> voltage_v) {
   recover(passed);
   if (voltage_v && std::isfinite(*voltage_v) && *voltage_v >= kLeast_v && *voltage_v <= kMost_v) {
     average(*voltage_v, last_reading_ ? now - *last_reading_ : Duration(0));
-    watch_brownout(*voltage_v);
+    if (*voltage_v < config_.brownout_under_v) cut_power(kCutEvery);
     last_reading_ = now;
   } else if (last_reading_ && now - *last_reading_ >= kForgotten) {
     average_v_.reset();
     last_reading_.reset();
   }
+  if (supply_low) cut_power(kSupplyCutEvery);
   return show();
 }
 
@@ -55,20 +57,20 @@ void BatteryWatch::average(double voltage_v, Duration passed) {
   *average_v_ += std::min(1.0, step_s / memory_s) * (voltage_v - *average_v_);
 }
 
-void BatteryWatch::watch_brownout(double voltage_v) {
-  if (voltage_v >= config_.brownout_under_v) return;
-  const bool going_on = last_brownout_ && *now_ - *last_brownout_ < kBrownoutShown;
-  lowest_v_ = going_on ? std::min(lowest_v_, voltage_v) : voltage_v;
+/// No more often than a cut shows.
+void BatteryWatch::cut_power(Duration every) {
   last_brownout_ = now_;
-  if (last_cut_ && *now_ - *last_cut_ < kCutEvery) return;
+  if (last_cut_ && *now_ - *last_cut_ < every) return;
   power_share_ = std::max(std::min(kLeastPower, power_share_), power_share_ * config_.brownout_power);
   last_cut_ = now_;
 }
 
 void BatteryWatch::recover(Duration passed) {
-  if (last_brownout_ && *now_ - *last_brownout_ < kBrownoutShown) return;
+  if (is_brownout()) return;
   power_share_ = std::min(1.0, power_share_ + to_seconds(passed) / config_.recovery_s);
 }
+
+bool BatteryWatch::is_brownout() const { return last_brownout_ && *now_ - *last_brownout_ < kBrownoutShown; }
 
 BatteryLevel BatteryWatch::level() const {
   if (!average_v_) return BatteryLevel::kUnknown;
@@ -88,7 +90,7 @@ double BatteryWatch::share() const {
 bool BatteryWatch::show() {
   const BatteryLevel level = this->level();
   const double share = this->share();
-  const bool brownout = last_brownout_ && *now_ - *last_brownout_ < kBrownoutShown;
+  const bool brownout = is_brownout();
   const bool changed =
       level != shown_.level || brownout != shown_.brownout || std::abs(share - shown_.share) >= kShownStep;
   if (changed) shown_ = {average_v_.value_or(0.0), share, level, brownout};

@@ -58,28 +58,29 @@ struct BatteryConfig {
 
 /// Watches the battery's voltage. The level that is shown comes from an average, with hysteresis, as the
 /// voltage dips with every start; a single reading that is too low for the computer is a brownout, told at
-/// once, and costs power for a while (thesis, 3.1).
+/// once, and costs power for a while (thesis, 3.1). So is a computer that says that its own supply is too
+/// low, whatever the battery's voltage: between them stands a converter, and a cable.
 class BatteryWatch {
  public:
   explicit BatteryWatch(const BatteryConfig& config = {}) : config_(config) {}
 
   /// Takes a reading, or says that there is none. What no battery can have (nothing, 0, not a number) is
-  /// none. Returns whether what is shown changed. A `now` before the last one begins a new measurement.
-  bool update(Time now, std::optional<double> voltage_v);
+  /// none. `supply_low`: so said the computer when it was asked last, about a second ago. Returns whether
+  /// what is shown changed. A `now` before the last one begins a new measurement.
+  bool update(Time now, std::optional<double> voltage_v, bool supply_low = false);
 
   /// What is shown: stays as it is until the level, the brownout or the share (by 5 %) changes.
   const BatteryState& shown() const { return shown_; }
   /// The average; nothing before there is a reading, and when there was none for 5 s.
   std::optional<double> voltage_v() const { return average_v_; }
-  /// The lowest reading of the last brownout.
-  double lowest_v() const { return lowest_v_; }
   /// What brownouts leave of the power limit, 0 to 1.
   double power_share() const { return power_share_; }
 
  private:
   void average(double voltage_v, Duration passed);
-  void watch_brownout(double voltage_v);
+  void cut_power(Duration every);
   void recover(Duration passed);
+  bool is_brownout() const;
   BatteryLevel level() const;
   double share() const;
   bool show();
@@ -89,7 +90,6 @@ class BatteryWatch {
   std::optional<Time> now_, last_reading_, last_brownout_, last_cut_;
   std::optional<double> average_v_;
   double measured_s_ = 0.0;  ///< how much time the average covers
-  double lowest_v_ = 0.0;
   double power_share_ = 1.0;
 };
 

@@ -19,7 +19,7 @@ DriveOutput DriveControl::step(Time now, const DriveInputs& in) {
   DriveOutput out;
   if (in.driver_left) heartbeat_.driver_left();
   heartbeat_.update(now, in.command);
-  out.battery_changed = watch_battery(now, in.motors);
+  out.battery_changed = watch_battery(now, in);
 
   const Twist ramped = ramp_.toward(wanted(in), passed);
   const Decision decision = safety_.decide(now, safety_inputs(in, ramped));
@@ -38,13 +38,13 @@ DriveOutput DriveControl::step(Time now, const DriveInputs& in) {
 }
 
 /// Each reading counts once.
-bool DriveControl::watch_battery(Time now, const std::optional<Stamped<MotorState>>& motors) {
+bool DriveControl::watch_battery(Time now, const DriveInputs& in) {
   std::optional<double> voltage_v;
-  if (motors && motors->stamp != battery_read_ && motors->stamp <= now + kStampJitter) {
-    voltage_v = motors->value.battery_v;
-    battery_read_ = motors->stamp;
+  if (in.motors && in.motors->stamp != battery_read_ && in.motors->stamp <= now + kStampJitter) {
+    voltage_v = in.motors->value.battery_v;
+    battery_read_ = in.motors->stamp;
   }
-  return battery_.update(now, voltage_v);
+  return battery_.update(now, voltage_v, in.supply_low);
 }
 
 /// What the driver asks for, within the power limits and what the wheels can do. The user's limit maps the

@@ -23,6 +23,7 @@ struct DriveInputs {
   bool has_imu = false;  ///< there is one, though it may not have spoken yet
   std::optional<ImuSample> imu;
   std::optional<Stamped<MotorState>> motors;  ///< as last read
+  bool supply_low = false;                    ///< the computer's own, as it said last
   bool has_estop = false;                     ///< there is one, though it may not have been read yet
   std::optional<Stamped<PinState>> pins;
   double power_limit = 1.0;               ///< the user's, 0 to 1: scales what is commanded
@@ -64,7 +65,7 @@ class DriveControl {
   const Counters& refused() const { return heartbeat_.refused(); }
 
  private:
-  bool watch_battery(Time now, const std::optional<Stamped<MotorState>>& motors);
+  bool watch_battery(Time now, const DriveInputs& in);
   Twist wanted(const DriveInputs& in) const;
   SafetyInputs safety_inputs(const DriveInputs& in, const Twist& twist) const;
   void log(Time now, const Finding& worst);

@@ -86,7 +86,7 @@ Finding Safety::battery(const SafetyInputs& in) const {
   if (in.battery.brownout || in.battery_power < 1.0) {
     const std::string percent = fixed_text(100.0 * in.battery_power, 0);
     return {Cause::kBrownout,
-            {Motion::kSlow, "battery broke down under load: power cut to " + percent + " %"}};
+            {Motion::kSlow, "battery or 5 V supply broke down under load: power cut to " + percent + " %"}};
   }
   if (in.battery.level == BatteryLevel::kRecharge)
     return {Cause::kBattery, {Motion::kSlow, "battery nearly empty: recharge it"}};

@@ -46,12 +46,14 @@ void ControlStage::turn() {
   inputs_.scan = ports_.scan.get().value;
   inputs_.imu = value_of<ImuSample>(imu_.get());
   inputs_.power_limit = ports_.power_limit;
+  inputs_.supply_low = ports_.supply_low;
   inputs_.clear_asked = ports_.clear_asked.exchange(false);
   inputs_.stop_asked.reset();
   while (auto by = ports_.stops.try_pop()) inputs_.stop_asked = std::move(by);
 
   const Time now = clock_.now();
   const DriveOutput out = control_.step(now, inputs_);
+  if (motors_) motors_->show(out.verdict.motion);
   const bool driven = drive(out.power);
   const auto& command = inputs_.command;
   if (driven && command &&

@@ -73,6 +73,7 @@ struct Ports {
   Latest<DriveCommand> command;          ///< newest wins; each is a heartbeat too
   std::atomic<bool> driver_left{false};  ///< since the robot looked last; `command` may be another's by now
   std::atomic<double> power_limit{1.0};
+  std::atomic<bool> supply_low{false};  ///< so says the computer of its own supply: driving goes easy on it
   BoundedQueue<std::string> stops{16};  ///< who asks for a stop; that there was one is never lost
   std::atomic<bool> clear_asked{
       false};                    ///< a person clears latched stops; a stop asked for at the same time wins

@@ -15,10 +15,12 @@ struct Bench {
   Time now;
   int reports = 0;
 
+  bool supply_low = false;
+
   void read(std::optional<double> volts, double seconds = 0.02) {
     for (int i = 0; i < seconds * 50 - 0.5; ++i) {
       now += std::chrono::milliseconds(20);
-      reports += watch.update(now, volts) ? 1 : 0;
+      reports += watch.update(now, volts, supply_low) ? 1 : 0;
     }
   }
 };
@@ -128,7 +130,30 @@ TEST(BatteryWatch, ALastingBrownoutCutsAgainButNotToNothing) {
   EXPECT_NEAR(b.watch.power_share(), 0.49, 1e-9);
   b.read(9.5, 10);
   EXPECT_NEAR(b.watch.power_share(), 0.2, 1e-9);
-  EXPECT_NEAR(b.watch.lowest_v(), 9.5, 1e-9);
+}
+
+TEST(BatteryWatch, AComputersLowSupplyIsABrownoutWhateverTheVoltage) {
+  for (const std::optional<double> volts : {std::optional(12.5), std::optional<double>()}) {
+    Bench b;
+    b.read(volts, 1);
+    b.supply_low = true;
+    b.read(volts);
+    EXPECT_TRUE(b.watch.shown().brownout);
+    EXPECT_NEAR(b.watch.power_share(), 0.7, 1e-9);
+    b.read(volts, 0.9);
+    EXPECT_NEAR(b.watch.power_share(), 0.7, 1e-9) << "the computer was not asked again yet";
+    b.read(volts, 0.2);
+    EXPECT_NEAR(b.watch.power_share(), 0.49, 1e-9);
+    b.read(volts, 20);
+    EXPECT_NEAR(b.watch.power_share(), 0.2, 1e-9);
+    b.supply_low = false;
+    b.read(volts, 1.9);
+    EXPECT_TRUE(b.watch.shown().brownout);
+    b.read(volts, 0.2);
+    EXPECT_FALSE(b.watch.shown().brownout);
+    b.read(volts, 9);
+    EXPECT_EQ(b.watch.power_share(), 1.0);
+  }
 }
 
 TEST(BatteryWatch, AClockThatRunsBackwardsGivesNoPowerBack) {

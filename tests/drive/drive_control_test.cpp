@@ -182,8 +182,22 @@ TEST(DriveControl, ABrownoutCutsThePowerAndGivesItBackSlowly) {
   d.motors.battery_v = 12.5;
   out = d.run(1, kForward);
   EXPECT_NEAR(out.applied.v_mps, 0.7 * 0.6, 1e-6);
-  EXPECT_EQ(out.verdict.reason, "battery broke down under load: power cut to 70 %");
+  EXPECT_EQ(out.verdict.reason, "battery or 5 V supply broke down under load: power cut to 70 %");
   EXPECT_NEAR(d.run(6, kForward).applied.v_mps, 0.6, 1e-6);
+}
+
+TEST(DriveControl, TheComputersLowSupplyCutsThePowerOfAFullBattery) {
+  Drive d;
+  d.run(0.7, kStand);
+  EXPECT_NEAR(d.run(1, kForward).applied.v_mps, 0.6, 1e-6);
+  d.in.supply_low = true;
+  const DriveOutput out = d.run(0.8, kForward);
+  EXPECT_NEAR(out.applied.v_mps, 0.7 * 0.6, 1e-6);
+  EXPECT_EQ(out.verdict.motion, Motion::kSlow);
+  EXPECT_EQ(out.cause, Cause::kBrownout);
+  EXPECT_EQ(out.battery.level, BatteryLevel::kGood);
+  d.in.supply_low = false;
+  EXPECT_NEAR(d.run(7, kForward).applied.v_mps, 0.6, 1e-6);
 }
 
 TEST(DriveControl, HoldsBeforeAWallAndBacksOff) {

@@ -133,6 +133,22 @@ TEST_F(RplidarTest, TellsForAProbeWhatIsThereWithoutStartingTheMotor) {
   EXPECT_FALSE(emulator_->turns());
 }
 
+TEST_F(RplidarTest, StopsAMotorThatACrashedProgramLeftTurningEvenWhenOnlyAsked) {
+  plug_in(test::emulated_s1());
+  {
+    rplidar::DeviceTalk crashed(clock_);
+    crashed.open(emulator_->port(), 256000);
+    crashed.say(rplidar::motor_request(rplidar::Command::kMotorRpm, 600));
+    ASSERT_TRUE(comes_true([&] { return emulator_->turns(); }));
+  }
+  {
+    Rplidar lidar(config_, {}, clock_);
+    while (!lidar.identify(clock_.now() + milliseconds(50))) {
+    }
+  }
+  EXPECT_TRUE(comes_true([&] { return !emulator_->turns(); }));
+}
+
 TEST_F(RplidarTest, MeasuresInTheModeThatIsAskedFor) {
   for (const char* mode : {"Standard", "express", "Stability"}) {
     plug_in(test::emulated_a3());

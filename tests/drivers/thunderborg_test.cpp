@@ -247,6 +247,15 @@ TEST_F(ThunderBorgTest, ShowsAColor) {
   EXPECT_EQ(board_.transfers(), before + 4) << "told once, not every time";
 }
 
+TEST_F(ThunderBorgTest, ShowsHowFarTheRobotMayMove) {
+  motors().show(Motion::kGo);
+  motors().read();
+  EXPECT_EQ(board_.lights(), (std::array{0, 80, 0}));
+  motors().show(Motion::kEStop);
+  motors().read();
+  EXPECT_EQ(board_.lights(), (std::array{80, 0, 80}));
+}
+
 TEST_F(ThunderBorgTest, ReportsAllItKnows) {
   board_.set_battery_v(10);
   board_.set_motor_faults(false, true);

@@ -246,6 +246,18 @@ TEST(Robot, AKickOfAMetreIsNoticed) {
   EXPECT_LT(error_m(), 0.1);
 }
 
+TEST(Robot, GoesEasyOnTheComputersSupply) {
+  SteppedRobot r;
+  r.stand();
+  r.robot.ports().supply_low = true;
+  r.go_on(0.5, Twist{0.0, 1.0});
+  EXPECT_TRUE(r.drive().battery.brownout);
+  EXPECT_THAT(r.drive().verdict.reason, HasSubstr("5 V supply"));
+  r.robot.ports().supply_low = false;
+  r.go_on(6.0, Twist{0.0, 1.0});
+  EXPECT_FALSE(r.drive().battery.brownout);
+}
+
 TEST(Robot, AnEmptyBatteryIsToldOfAndGoneEasyOn) {
   SteppedRobot r;
   r.stand();

@@ -71,7 +71,7 @@ export const strings = {
     batteryAbout: (volts: string) => `The battery has ${volts} V.`,
     recharge: "Recharge",
     brownout: "Brownout",
-    brownoutAbout: "The battery broke down under load; the robot drives with less power.",
+    brownoutAbout: "The battery or the 5 V supply broke down under load; the robot drives with less power.",
     near: "Close",
     collision: "Collision",
     collisionAbout: "The robot touches something.",
