@@ -13,6 +13,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "bench_command.h"
 #include "config.h"
 #include "probe_command.h"
 #include "replay_command.h"
@@ -102,6 +103,18 @@ int run(int argc, char** argv) {
   probe->add_flag("--spin-motors", probe_options.spin_motors, "turn the wheels a little, after asking");
   common.add_to(*probe, "--config");
 
+  dynslam::BenchOptions bench_options;
+  CLI::App* bench = app.add_subcommand("bench", "what the robot's work costs on this computer");
+  bench->add_option("--world", bench_options.world, "where the simulated robot drives, as for sim")
+      ->type_name("NAME|FILE")
+      ->capture_default_str();
+  bench->add_option("--seed", bench_options.seed, "of the noise of everything")->capture_default_str();
+  bench->add_option("--duration", bench_options.duration_s, "of simulated time, in seconds")
+      ->type_name("S")
+      ->check(CLI::Range(0.1, 1e5))
+      ->capture_default_str();
+  common.add_to(*bench, "--config");
+
   CLI::App* check = app.add_subcommand(
       "check-config", "read a configuration file and print all settings as they are in force");
   common.add_to(*check, "file");
@@ -120,6 +133,7 @@ int run(int argc, char** argv) {
   }
   if (robot->parsed()) return dynslam::run_robot(common.load());
   if (probe->parsed()) return dynslam::run_probe(probe_options, common.load(), std::cin, std::cout);
+  if (bench->parsed()) return dynslam::run_bench(bench_options, common.load());
   if (sim->parsed()) return dynslam::run_sim(sim_options, common.load());
   return dynslam::run_replay(options, common.load());
 }

@@ -27,7 +27,7 @@ SimMission::SimMission(const SimMissionOptions& options, std::unique_ptr<Mission
       keeps_trajectories_(options.keeps_trajectories),
       script_(std::move(script)),
       simulator_(std::make_shared<Simulator>(options.world, clock, options.seed)),
-      robot_(make_devices(simulator_), robot_config(config), clock) {
+      robot_(make_devices(simulator_), robot_config(config), clock, options.watch) {
   if (!keeps_trajectories_) robot_.slam().keep_path(kPathOfTheHour);
   robot_.on_scan([this](const ScanResult& scan) {
     ++scans_;

@@ -21,6 +21,7 @@ struct SimMissionOptions {
   std::uint64_t seed = 1;
   std::optional<double> limit_s;   ///< most of simulated time
   bool keeps_trajectories = true;  ///< otherwise memory does not grow with the hours
+  StageWatch* watch = nullptr;     ///< of the robot: see there
 };
 
 /// A simulated robot on a mission, and what is noted on the way: its path as it knew it and as it truly was.

@@ -22,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string kRecording = DYNSLAM_SOURCE_DIR "/tests/data/mit-csail.clf.gz";
 
@@ -290,6 +291,27 @@ TEST_F(CommandLine, TakesSettingsFromFileAndLine) {
           .code,
       0);
   EXPECT_THAT(contents(folder_ / "out/map.yaml"), HasSubstr("resolution: 0.05"));
+}
+
+TEST_F(CommandLine, MeasuresWhatTheWorkCosts) {
+  const Outcome o = dynslam("bench --duration 3 --seed 2");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.err, "");
+  EXPECT_THAT(o.out, HasSubstr("mapping, a scan"));
+  const auto begin = o.out.find("dynslam-bench: ");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string line = o.out.substr(begin);
+  EXPECT_EQ(line.find('\n'), line.size() - 1) << "the last line is the one to send";
+  EXPECT_THAT(line, HasSubstr(" world=\"apartment\" seed=2 drive_s=3 scans=2"));
+  for (const char* nothing : {"map_ms=0.000/", "plan_ms=0.000/", "client_ms=0.000/", "jpeg_ms=0.000/",
+                              "core_pct=0.0 ", "rss_mib=0"})
+    EXPECT_THAT(line, Not(HasSubstr(nothing)));
+}
+
+TEST_F(CommandLine, NamesWhatCannotBeMeasured) {
+  expect_one_line(dynslam("bench --world /no/such/world.toml"), 2, "/no/such/world.toml");
+  expect_one_line(dynslam("bench --duration 0"), 2, "--duration");
+  expect_one_line(dynslam("bench --set slam.cell_size_m=-1"), 2, "cell_size_m");
 }
 
 TEST(ProgressLine, ShowsShareRateAndTimeLeft) {

@@ -16,11 +16,12 @@ constexpr int kControlPriority = 20;
 
 }  // namespace
 
-Robot::Robot(Devices devices, const RobotConfig& config, const Clock& clock)
+Robot::Robot(Devices devices, const RobotConfig& config, const Clock& clock, StageWatch* watch)
     : devices_(std::move(devices)),
+      watch_(watch),
       control_first_(config.control_first),
       clock_(clock),
-      slam_(config.slam),
+      slam_(config.slam, watch),
       slam_stage_(slam_, ports_, clock),
       autopilot_(config.autopilot, config.drive, clock, ports_, newest_imu_),
       control_(devices_.motors.get(), devices_.pins.get(), config.drive, clock, ports_, newest_imu_,
@@ -160,6 +161,7 @@ Robot::Ending Robot::stop(std::chrono::milliseconds patience) {
 
 void Robot::step() {
   recorder_.turn();
+  enter(kSensing);
   if (imu_) {
     while (imu_->turn(stop_)) {
     }
@@ -169,10 +171,20 @@ void Robot::step() {
     }
   }
   if (camera_ && ports_.watchers > 0) camera_->turn(stop_);
+  enter(kMapping);
   slam_stage_.turn();
-  if (clock_.now() >= autopilot_.plan_due()) autopilot_.plan_turn();
-  if (clock_.now() >= autopilot_.pilot_due()) autopilot_.pilot_turn();
-  if (clock_.now() >= control_.due()) control_turn();
+  if (clock_.now() >= autopilot_.plan_due()) {
+    enter(kPlanning);
+    autopilot_.plan_turn();
+  }
+  if (clock_.now() >= autopilot_.pilot_due()) {
+    enter(kPiloting);
+    autopilot_.pilot_turn();
+  }
+  if (clock_.now() >= control_.due()) {
+    enter(kControlling);
+    control_turn();
+  }
 }
 
 void Robot::finish() {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -36,14 +37,18 @@ struct RobotConfig {
 /// repeatable to the bit.
 class Robot {
  public:
-  /// `clock` must outlive it.
-  Robot(Devices devices, const RobotConfig& config, const Clock& clock);
+  /// `clock` must outlive it. `watch`, when given, too: it is told of what step() does, by names of its own
+  /// for what is not SLAM (kSensing and so on), and should not be given to threads.
+  Robot(Devices devices, const RobotConfig& config, const Clock& clock, StageWatch* watch = nullptr);
   /// As stop().
   ~Robot();
   Robot(const Robot&) = delete;
   Robot& operator=(const Robot&) = delete;
 
   Ports& ports() { return ports_; }
+
+  static constexpr std::string_view kSensing = "sensing", kMapping = "mapping", kPlanning = "planning",
+                                    kPiloting = "piloting", kControlling = "controlling";
 
   /// Starts the threads.
   void start();
@@ -77,8 +82,12 @@ class Robot {
   void run_recorder();
   void take(const ScanResult& result);
   void poll_camera();
+  void enter(std::string_view stage) {
+    if (watch_) watch_->enter(stage);
+  }
 
   Devices devices_;
+  StageWatch* watch_;
   bool control_first_;
   const Clock& clock_;
   Ports ports_;
