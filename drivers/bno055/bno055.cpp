@@ -77,7 +77,7 @@ void Bno055::begin() {
   const double usual_hz = chip_.is_software_bus() ? kSoftwareBusRate_hz : kRate_hz;
   period_ = from_seconds(1.0 / (config_.rate_hz > 0.0 ? config_.rate_hz : usual_hz));
   due_ = clock_.now();
-  status_due_ = due_ + kLookEvery;
+  status_due_ = due_;
   turned_ = due_;
   check_.forget();
   bad_readings_ = bad_statuses_ = frozen_looks_ = 0;
