@@ -159,7 +159,7 @@ TEST_F(WholeRobotTest, DrivesWithoutItsCamera) {
   ports().watchers = 1;
   hold(kTurning);
   expect_driving_again();
-  expect_trouble("camera", "is its cable in");
+  expect_trouble("camera", "is the ribbon cable in");
   EXPECT_EQ(device("camera")["samples"], 0);
   EXPECT_EQ(drive().verdict.motion, Motion::kGo) << state();
 }
@@ -182,7 +182,7 @@ TEST_F(WholeRobotTest, ComesToLifeInWhateverOrderItsDevicesAreThere) {
   comes_alive("pins");
   hardware().plug_in_motors();
   comes_alive("motors");
-  EXPECT_TRUE(is_stopped_by(Cause::kScan)) << state();
+  EXPECT_TRUE(comes_true(kPatience_s, [&] { return is_stopped_by(Cause::kScan); })) << state();
   hardware().plug_in_lidar();
   comes_alive("lidar");
   hardware().plug_in_imu();
