@@ -78,7 +78,7 @@ void Bno055::begin() {
   const double usual_hz = chip_.is_software_bus() ? kSoftwareBusRate_hz : kRate_hz;
   period_ = from_seconds(1.0 / (config_.rate_hz > 0.0 ? config_.rate_hz : usual_hz));
   due_ = clock_.now();
-  status_due_ = due_ + kLookEvery;
+  status_due_ = due_;
   turned_ = due_;
   check_.forget();
   quickest_ = Duration::max() / 2;

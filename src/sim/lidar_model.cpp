@@ -54,6 +54,22 @@ double LidarModel::measured_m(const SpaceRay& ray, const RayCaster& caster) {
   return range_m;
 }
 
+double LidarModel::range_m(const BodyPose& pose, double angle_rad, const RayCaster& caster) {
+  const Eigen::Quaterniond world_q_robot = pose.world_q_robot();
+  const Vector2 along = unit(angle_rad);
+  const Eigen::Vector3d ahead = world_q_robot * Eigen::Vector3d(along.x(), along.y(), 0.0);
+  const Eigen::Vector3d mast = world_q_robot * Eigen::Vector3d(0.0, 0.0, kLidarHeight_m);
+  const double level = ahead.head<2>().norm();
+  SpaceRay ray;
+  ray.from = pose.world_T_robot.translation() + mast.head<2>();
+  ray.height_m = pose.lift_m + mast.z();
+  ray.direction = ahead.head<2>() / level;
+  ray.slope = std::abs(ahead.z()) < 1e-9 ? 0.0 : ahead.z() / level;
+  ray.max_m = kMaxRange_m + 1.0;
+  ray.glass_cosine = random_.uniform(0.97, 1.0);
+  return measured_m(ray, caster);
+}
+
 void LidarModel::step(Duration length, const BodyPose& at_begin, const BodyPose& at_end,
                       const RayCaster& caster, Outbox<Scan>& out) {
   const double beam_s = to_seconds(kTurn) / kBeams;
@@ -61,22 +77,9 @@ void LidarModel::step(Duration length, const BodyPose& at_begin, const BodyPose&
   for (int k = 0; k < beams; ++k) {
     const auto i = static_cast<int>(scan_.beams.size());
     const BodyPose pose = interpolate(at_begin, at_end, static_cast<double>(k) / beams);
-    const Eigen::Quaterniond world_q_robot = pose.world_q_robot();
     const double angle = double{kFirst_rad} + i * double{kStep_rad};
-    const Vector2 along = unit(angle);
-    const Eigen::Vector3d ahead = world_q_robot * Eigen::Vector3d(along.x(), along.y(), 0.0);
-    const Eigen::Vector3d mast = world_q_robot * Eigen::Vector3d(0.0, 0.0, kLidarHeight_m);
-    const double level = ahead.head<2>().norm();
-    SpaceRay ray;
-    ray.from = pose.world_T_robot.translation() + mast.head<2>();
-    ray.height_m = pose.lift_m + mast.z();
-    ray.direction = ahead.head<2>() / level;
-    ray.slope = std::abs(ahead.z()) < 1e-9 ? 0.0 : ahead.z() / level;
-    ray.max_m = kMaxRange_m + 1.0;
-    ray.glass_cosine = random_.uniform(0.97, 1.0);
-    const double range_m = measured_m(ray, caster);
-    scan_.beams.push_back(
-        {static_cast<float>(angle), static_cast<float>(range_m), static_cast<float>(i * double{kStep_s})});
+    scan_.beams.push_back({static_cast<float>(angle), static_cast<float>(range_m(pose, angle, caster)),
+                           static_cast<float>(i * double{kStep_s})});
   }
   if (scan_.beams.size() < kBeams) return;
   const Time next = scan_.stamp + kTurn;

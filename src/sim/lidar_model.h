@@ -20,6 +20,8 @@ class LidarModel {
   /// follow each other from `begin` on, and a whole number of beams falls into each.
   void step(Duration length, const BodyPose& at_begin, const BodyPose& at_end, const RayCaster& caster,
             Outbox<Scan>& out);
+  /// What it measures along an angle while the robot stands at a pose; infinity: nothing.
+  double range_m(const BodyPose& pose, double angle_rad, const RayCaster& caster);
   /// When the turn that is being measured will be due.
   Time next_due() const { return scan_.stamp + kTurn + kLatency; }
 

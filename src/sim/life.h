@@ -59,6 +59,8 @@ class Life {
   std::optional<Surface> touched() const;
   /// See Actors::move_door.
   void move_door(std::size_t door, double open) { actors_.move_door(door, open); }
+  /// Things as they stand, for beams.
+  const RayCaster& caster() const { return caster_; }
   RobotBody& body() { return body_; }
   const RobotBody& body() const { return body_; }
   /// 100 a second, the last of them kTruthKept old at most, oldest first.

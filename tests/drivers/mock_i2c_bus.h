@@ -29,6 +29,8 @@ class MockI2cBuses {
   void add_bus(int number, bool software = false);
   /// Wires a chip; null takes it off. The chip must outlive its place here.
   void plug(int bus, int address, I2cChip* chip);
+  /// The test bed that they stand in, for other emulated devices.
+  UMockdevTestbed* bed() { return testbed_; }
   /// How many ioctls of I2C_RDWR there were.
   int long_transfers() const;
 

@@ -24,6 +24,8 @@ using std::chrono::milliseconds;
 
 constexpr Duration kBoot = milliseconds(300);
 constexpr Duration kAdapter = milliseconds(1);
+/// What a busy computer did not come to send for so long is lost.
+constexpr Duration kLongestBehind = milliseconds(200);
 const char* const kLinkName = "usb-Silicon_Labs_CP2102_USB_to_UART_Bridge_Controller_0001-if00-port0";
 const std::string kGreeting = "RP LIDAR System.\r\nFirmware Ver 1.29 - rc7, HW Ver 7\r\nModel: 49\r\n";
 
@@ -214,7 +216,12 @@ Time RplidarEmulator::due() const {
 }
 
 void RplidarEmulator::send_due_packets() {
-  while (stream_ && clock_.now() >= due()) {
+  const Time now = clock_.now();  // what comes due meanwhile is for the next turn: it may never be done else
+  if (stream_ && now > due() + kLongestBehind) {
+    const int n = samples_in(stream_->mode.answer);
+    stream_->samples += n * ((now - due()) / (sample_time() * n));
+  }
+  while (stream_ && now >= due()) {
     PacketBytes bytes = next_packet();
     if (silent_ || turns_per_s_ == 0.0) continue;
     if (std::exchange(stream_->cut_first, false))

@@ -29,8 +29,7 @@ int ThunderBorgEmulator::read(std::span<std::uint8_t> into) {
 }
 
 double ThunderBorgEmulator::power(const Motor& motor) const {
-  return with_lock(
-      [&] { return failsafe_struck() ? 0.0 : (motor.direction == 1 ? 1.0 : -1.0) * motor.pwm / 255.0; });
+  return with_lock([&] { return failsafe_struck() ? 0.0 : power_of(motor); });
 }
 
 bool ThunderBorgEmulator::failsafe_struck() const {
@@ -41,6 +40,11 @@ void ThunderBorgEmulator::switch_on() {
   a_ = b_ = {};
   failsafe_ = false;
   lights_.reset();
+  tell_driven();
+}
+
+void ThunderBorgEmulator::tell_driven() {
+  if (driven_) driven_(power_of(a_), power_of(b_));
 }
 
 void ThunderBorgEmulator::set_motor(Motor& motor, int direction, int pwm) {
@@ -51,6 +55,7 @@ void ThunderBorgEmulator::set_motor(Motor& motor, int direction, int pwm) {
   if (failsafe_struck()) a_.pwm = b_.pwm = 0;
   motor = {direction, pwm};
   commanded_ = now_();
+  tell_driven();
 }
 
 void ThunderBorgEmulator::command(int code, std::span<const std::uint8_t> values) {
@@ -73,6 +78,7 @@ void ThunderBorgEmulator::command(int code, std::span<const std::uint8_t> values
     case 14:
       a_.pwm = b_.pwm = 0;
       commanded_ = now_();
+      tell_driven();
       break;
     case 19:
       failsafe_ = value(0) == 1 && !refuses_failsafe_;

@@ -22,9 +22,14 @@ class ThunderBorgEmulator : public I2cChip {
 
  public:
   using Now = std::function<Time()>;
+  using Driven = std::function<void(double a, double b)>;
 
   /// `now` is the clock that the failsafe goes by.
   explicit ThunderBorgEmulator(Now now) : now_(std::move(now)) {}
+  /// Told of each command to the motors, and what they have then; that the failsafe struck it is not told.
+  void on_driven(Driven driven) {
+    with_lock([&] { driven_ = std::move(driven); });
+  }
 
   int write(std::span<const std::uint8_t> bytes) override;
   int read(std::span<std::uint8_t> into) override;
@@ -76,14 +81,19 @@ class ThunderBorgEmulator : public I2cChip {
   };
 
   double power(const Motor& motor) const;
+  static double power_of(const Motor& motor) {
+    return (motor.direction == 1 ? 1.0 : -1.0) * motor.pwm / 255.0;
+  }
   bool failsafe_struck() const;
   void switch_on();
+  void tell_driven();
   void command(int code, std::span<const std::uint8_t> values);
   void set_motor(Motor& motor, int direction, int pwm);
   std::array<int, 3> answer() const;
 
   mutable std::mutex mutex_;
   Now now_;
+  Driven driven_;
   ChipFaults faults_;
   Motor a_, b_;
   Time commanded_;
