@@ -36,6 +36,15 @@ std::string read_text(const std::string& path) {
   return text;
 }
 
+/// So that a file which was written for an older version still serves. Whoever renames a key, or takes one
+/// away, adds it.
+const std::vector<OldKey>& old_keys() {
+  static const std::vector<OldKey> keys = {
+      {"imu.calibration_file", "", "the calibration is kept in state.folder"},
+  };
+  return keys;
+}
+
 void append(std::vector<std::string>& all, std::vector<std::string> more) {
   for (std::string& one : more) all.push_back(std::move(one));
 }
@@ -55,7 +64,11 @@ Config make_config(const std::optional<std::string>& path, const std::vector<std
   Config config;
   const std::vector<ConfigKey> keys = keys_of(config);
   std::vector<std::string> problems;
-  if (path) append(problems, read_toml(read_text(*path), *path, keys));
+  if (path) {
+    TomlFindings findings = read_toml(read_text(*path), *path, keys, old_keys());
+    append(problems, std::move(findings.problems));
+    config.warnings = std::move(findings.warnings);
+  }
   for (const std::string& setting : settings) append(problems, read_setting(setting, keys));
   if (problems.empty())
     for (const auto& problem :

@@ -57,6 +57,7 @@ struct Config {
   PlannerConfig planner;
   HardwareConfig hardware;
   StateConfig state;
+  std::vector<std::string> warnings;  ///< FILE:LINE: key: what has changed since the file was written
 
   /// Calls `visit(name of the table, struct with fields)` for each table.
   template <class Self, class Visit>

@@ -134,57 +134,85 @@ std::string unknown_table(const std::string& name, const Keys& keys) {
   return "unknown table; the nearest known table is [" + nearest_name(name, names) + "]";
 }
 
-/// Reads a file into the keys and collects what is wrong with it.
+/// Reads a file into the keys and collects what is to be said of it.
 class TomlReader {
  public:
-  TomlReader(const std::string& place, const Keys& keys) : place_(place), keys_(keys) {}
+  TomlReader(const std::string& place, const Keys& keys, const std::vector<OldKey>& old_keys)
+      : place_(place), keys_(keys), old_keys_(old_keys) {}
 
   void read(const toml::table& file) {
+    file_ = &file;
     for (const auto& [key, node] : file) {
       const std::string name(key.str());
-      const bool is_section =
-          std::any_of(keys_.begin(), keys_.end(), [&](const auto& k) { return k.section == name; });
+      const bool is_section = knows_section(name);
       if (is_section && node.is_table()) {
         read_section(name, *node.as_table());
       } else if (is_section) {
-        add(key, name, "must be a table, not " + shown(node));
+        problem(key, name, "must be a table, not " + shown(node));
       } else {
-        add(key, name, node.is_table() ? unknown_table(name, keys_) : unknown_key(name, keys_));
+        problem(key, name, node.is_table() ? unknown_table(name, keys_) : unknown_key(name, keys_));
       }
     }
   }
 
-  /// In the order of the lines; toml++ lists keys by name.
-  std::vector<std::string> problems() {
-    std::stable_sort(problems_.begin(), problems_.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<std::string> lines;
-    for (auto& [line, text] : problems_) lines.push_back(std::move(text));
-    return lines;
-  }
+  TomlFindings findings() { return {in_order(problems_), in_order(warnings_)}; }
 
  private:
+  using Said = std::vector<std::pair<toml::source_index, std::string>>;
+
+  bool knows_section(const std::string& name) const {
+    return std::any_of(keys_.begin(), keys_.end(), [&](const auto& k) { return k.section == name; }) ||
+           std::any_of(old_keys_.begin(), old_keys_.end(),
+                       [&](const auto& k) { return k.name.starts_with(name + '.'); });
+  }
+
   void read_section(const std::string& section, const toml::table& table) {
-    for (const auto& [key, node] : table) {
-      const std::string name = section + '.' + std::string(key.str());
-      const auto known =
-          std::find_if(keys_.begin(), keys_.end(), [&](const ConfigKey& k) { return k.name() == name; });
-      if (known == keys_.end()) {
-        add(key, name, unknown_key(name, keys_));
-      } else if (!read_value(node, *known)) {
-        add(key, name, "must be " + wanted(*known) + ", not " + shown(node));
-      }
+    for (const auto& [key, node] : table) read_key(key, section + '.' + std::string(key.str()), node);
+  }
+
+  void read_key(const toml::key& key, const std::string& name, const toml::node& node) {
+    const auto known =
+        std::find_if(keys_.begin(), keys_.end(), [&](const ConfigKey& k) { return k.name() == name; });
+    const auto old =
+        std::find_if(old_keys_.begin(), old_keys_.end(), [&](const OldKey& k) { return k.name == name; });
+    if (known != keys_.end()) {
+      if (!read_value(node, *known)) problem(key, name, "must be " + wanted(*known) + ", not " + shown(node));
+    } else if (old == old_keys_.end()) {
+      problem(key, name, unknown_key(name, keys_));
+    } else if (old->now.empty()) {
+      warning(key, name, "is not read any more: " + std::string(old->why));
+    } else if (file_->at_path(old->now)) {
+      warning(key, name, "is not read, as " + std::string(old->now) + ", its newer name, is there as well");
+    } else {
+      warning(key, name, "is called " + std::string(old->now) + " now, and was read as that");
+      read_key(key, std::string(old->now), node);
     }
   }
 
-  void add(const toml::key& key, const std::string& name, const std::string& what) {
-    const auto line = key.source().begin.line;
-    problems_.emplace_back(line, place_ + ':' + std::to_string(line) + ": " + name + ": " + what);
+  void problem(const toml::key& key, const std::string& name, const std::string& what) {
+    problems_.emplace_back(key.source().begin.line, place_of(key) + name + ": " + what);
+  }
+  void warning(const toml::key& key, const std::string& name, const std::string& what) {
+    warnings_.emplace_back(key.source().begin.line, place_of(key) + name + ": " + what);
+  }
+  std::string place_of(const toml::key& key) const {
+    return place_ + ':' + std::to_string(key.source().begin.line) + ": ";
+  }
+
+  /// Of the lines; toml++ lists keys by name.
+  static std::vector<std::string> in_order(Said& said) {
+    std::stable_sort(said.begin(), said.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<std::string> lines;
+    for (auto& [line, text] : said) lines.push_back(std::move(text));
+    return lines;
   }
 
   const std::string& place_;
   const Keys& keys_;
-  std::vector<std::pair<toml::source_index, std::string>> problems_;
+  const std::vector<OldKey>& old_keys_;
+  const toml::table* file_ = nullptr;
+  Said problems_, warnings_;
 };
 
 /// The text of a value to the key; false when it is not TOML, more than one value, or not what the key takes.
@@ -206,15 +234,17 @@ bool read_setting_value(const std::string& text, const ConfigKey& key) {
 
 void append(const ConfigKey& key, std::vector<ConfigKey>& keys) { keys.push_back(key); }
 
-std::vector<std::string> read_toml(std::string_view text, const std::string& place, const Keys& keys) {
+TomlFindings read_toml(std::string_view text, const std::string& place, const Keys& keys,
+                       const std::vector<OldKey>& old_keys) {
   try {
-    TomlReader reader(place, keys);
+    TomlReader reader(place, keys, old_keys);
     reader.read(toml::parse(text));
-    return reader.problems();
+    return reader.findings();
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
-    return {place + ':' + std::to_string(at.line) + ':' + std::to_string(at.column) + ": " +
-            std::string(error.description())};
+    return {{place + ':' + std::to_string(at.line) + ':' + std::to_string(at.column) + ": " +
+             std::string(error.description())},
+            {}};
   }
 }
 

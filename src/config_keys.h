@@ -39,10 +39,23 @@ std::vector<ConfigKey> keys_of(AnyConfig& config) {
   return keys;
 }
 
-/// Sets what a TOML text says and returns what is wrong with it, by line; a key with a problem keeps its
-/// value. `place` is the name of the file for the messages.
-std::vector<std::string> read_toml(std::string_view text, const std::string& place,
-                                   const std::vector<ConfigKey>& keys);
+/// A key that older versions knew.
+struct OldKey {
+  std::string_view name;  ///< "section.key"
+  std::string_view now;   ///< what it is called now, of the same meaning; empty: it is not needed any more
+  std::string_view why;   ///< it is not, the rest of a sentence
+};
+
+/// What is to be said of a file.
+struct TomlFindings {
+  std::vector<std::string> problems;  ///< what is wrong with it, by line
+  std::vector<std::string> warnings;  ///< what has changed since it was written
+};
+
+/// Sets what a TOML text says; a key with a problem keeps its value. `place` is the name of the file for the
+/// messages. A value under a key's old name counts unless there is one under the new.
+TomlFindings read_toml(std::string_view text, const std::string& place, const std::vector<ConfigKey>& keys,
+                       const std::vector<OldKey>& old_keys = {});
 
 /// Sets one "section.key=value"; a string may go without its quotes. Returns what is wrong with it, or
 /// nothing.

@@ -36,7 +36,11 @@ struct Common {
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
   }
-  dynslam::Config load() const { return dynslam::make_config(config, settings); }
+  dynslam::Config load() const {
+    dynslam::Config read = dynslam::make_config(config, settings);
+    for (const std::string& warning : read.warnings) spdlog::warn("{}", warning);
+    return read;
+  }
 };
 
 int run(int argc, char** argv) {
@@ -131,7 +135,7 @@ int run(int argc, char** argv) {
     std::fputs(config_reference(common.load()).c_str(), stdout);
     return 0;
   }
-  if (robot->parsed()) return dynslam::run_robot(common.load());
+  if (robot->parsed()) return dynslam::run_robot(dynslam::make_config(common.config, common.settings));
   if (probe->parsed()) return dynslam::run_probe(probe_options, common.load(), std::cin, std::cout);
   if (bench->parsed()) return dynslam::run_bench(bench_options, common.load());
   if (sim->parsed()) return dynslam::run_sim(sim_options, common.load());

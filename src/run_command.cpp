@@ -54,6 +54,7 @@ int run_robot(const Config& config) {
   Robot robot(make_real_devices(config, clock), own, clock);
   robot.slam().keep_path(kPathKept);
   const LogTap tap(robot.ports(), clock);
+  for (const std::string& warning : config.warnings) spdlog::warn("{}", warning);
   std::optional<Caretaker> caretaker(std::in_place, robot.ports(), clock, config);
   ServeOptions options;
   if (!config.state.folder.empty()) options.state_folder = config.state.folder;

@@ -36,7 +36,7 @@ struct Sample {
             {"two", {"any", "anything"}, &any},
             {"two", {"port", "where"}, &port}};
   }
-  Lines read(std::string_view text) { return read_toml(text, "f.toml", keys()); }
+  Lines read(std::string_view text) { return read_toml(text, "f.toml", keys()).problems; }
   Lines set(std::string_view setting) { return read_setting(setting, keys()); }
 };
 
@@ -106,10 +106,10 @@ TEST(ReadToml, ShowsWhatWasWrittenInOneLine) {
 TEST(ReadToml, RefusesNumbersThatDoNotFit) {
   int count = 0;
   const std::vector<ConfigKey> keys = {{"a", {"n", "no limits"}, &count}};
-  EXPECT_EQ(read_toml("a.n = 3000000000", "f", keys),
+  EXPECT_EQ(read_toml("a.n = 3000000000", "f", keys).problems,
             (Lines{"f:1: a.n: must be a whole number, not 3000000000"}));
-  EXPECT_EQ(read_toml("a.n = -9223372036854775808", "f", keys).size(), 1U);
-  EXPECT_EQ(read_toml("a.n = 2147483647", "f", keys), Lines{});
+  EXPECT_EQ(read_toml("a.n = -9223372036854775808", "f", keys).problems.size(), 1U);
+  EXPECT_EQ(read_toml("a.n = 2147483647", "f", keys).problems, Lines{});
   EXPECT_EQ(count, 2147483647);
 }
 
@@ -117,10 +117,10 @@ TEST(ReadToml, SetsAListOfTexts) {
   Lines hosts = {"old"};
   const std::vector<ConfigKey> keys = {{"a", {"hosts", "who"}, &hosts}};
   const Lines problem = {"f:1: a.hosts: must be a list of texts in quotes, not "};
-  EXPECT_EQ(read_toml("a.hosts = 'x'", "f", keys), (Lines{problem[0] + "\"x\""}));
-  EXPECT_EQ(read_toml("a.hosts = ['x', 2]", "f", keys), (Lines{problem[0] + "an array"}));
+  EXPECT_EQ(read_toml("a.hosts = 'x'", "f", keys).problems, (Lines{problem[0] + "\"x\""}));
+  EXPECT_EQ(read_toml("a.hosts = ['x', 2]", "f", keys).problems, (Lines{problem[0] + "an array"}));
   EXPECT_EQ(hosts, (Lines{"old"})) << "nothing of a list that is wrong";
-  EXPECT_EQ(read_toml("a.hosts = ['x', \"y z\",\n'\"',]", "f", keys), Lines{});
+  EXPECT_EQ(read_toml("a.hosts = ['x', \"y z\",\n'\"',]", "f", keys).problems, Lines{});
   EXPECT_EQ(hosts, (Lines{"x", "y z", "\""}));
   EXPECT_EQ(to_toml(keys), "[a]\n# who: a list of texts in quotes\nhosts = [\"x\", \"y z\", \"\\\"\"]\n");
   EXPECT_EQ(to_json(keys).dump(), R"({"a":{"hosts":["x","y z","\""]}})");
@@ -317,6 +317,39 @@ TEST_F(ConfigFileTest, ReadsBackItsReference) {
 
 TEST_F(ConfigFileTest, HasDefaultsWithinItsLimits) {
   EXPECT_EQ(message_of(write(config_reference(Config{}))), "no error");
+}
+
+/// A file that was written for an older version.
+TEST(ReadToml, ReadsAKeyByItsOldNameAndSaysSo) {
+  Sample s;
+  const std::vector<OldKey> old = {{"one.number", "one.count", ""},
+                                   {"gone.port", "two.port", ""},
+                                   {"one.speed", "", "it finds it by itself"}};
+  const auto read = [&](std::string_view text) { return read_toml(text, "f", s.keys(), old); };
+  const TomlFindings found = read("[one]\nnumber = 7\nspeed = 'any'\n[gone]\nport = 'x'");
+  EXPECT_EQ(found.problems, Lines{});
+  EXPECT_EQ(found.warnings, (Lines{"f:2: one.number: is called one.count now, and was read as that",
+                                   "f:3: one.speed: is not read any more: it finds it by itself",
+                                   "f:5: gone.port: is called two.port now, and was read as that"}));
+  EXPECT_EQ(s.count, 7);
+  EXPECT_EQ(s.port, "x");
+  EXPECT_EQ(read("one.number = 8\none.count = 9").warnings,
+            (Lines{"f:1: one.number: is not read, as one.count, its newer name, is there as well"}));
+  EXPECT_EQ(s.count, 9);
+  EXPECT_EQ(read("one.number = 11").problems.size(), 1U) << "the newer one's limits hold";
+  EXPECT_EQ(read("gone.portt = 'y'").problems.size(), 1U);
+}
+
+TEST(Config, WarnsOfWhatHasChangedSinceTheFileWasWritten) {
+  std::string path = (std::filesystem::temp_directory_path() / "dynslam-config-XXXXXX").string();
+  close(mkstemp(path.data()));
+  std::ofstream(path) << "[imu]\nbus = 4\ncalibration_file = '/var/lib/imu'\n";
+  const Config config = load_config(path);
+  std::filesystem::remove(path);
+  EXPECT_EQ(config.hardware.imu.bus, 4);
+  EXPECT_EQ(config.warnings,
+            (Lines{path + ":3: imu.calibration_file: is not read any more: the calibration is "
+                          "kept in state.folder"}));
 }
 
 }  // namespace
