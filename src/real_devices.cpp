@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "real_devices.h"
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
+#include <spdlog/spdlog.h>
+
 #include "drivers/rplidar/rplidar.h"
-#include "io/safe_file.h"
+#include "io/state_file.h"
 #ifdef DYNSLAM_HAS_BNO055
 #include "drivers/bno055/bno055.h"
 #endif
@@ -54,17 +53,18 @@ class NoPins : public Pins {
 #ifdef DYNSLAM_HAS_BNO055
 ProfileStore profile_store(const std::string& folder) {
   if (folder.empty()) return {};
+  const auto file = std::make_shared<StateFile>(folder + "/imu", kProfileFile);
   ProfileStore store;
-  store.load = [folder]() -> std::optional<std::string> {
-    std::ifstream in(std::filesystem::path(folder) / "imu" / kProfileFile, std::ios::binary);
-    if (!in) return std::nullopt;
-    return std::string(std::istreambuf_iterator<char>(in), {});
+  store.load = [file] {
+    std::optional<std::string> profile;
+    const std::string trouble = file->load([&profile](const std::string& text) {
+      if (!bno055::read_profile(text)) throw InputError("it is no calibration of a BNO055");
+      profile = text;
+    });
+    if (!trouble.empty()) spdlog::warn("{}", trouble);
+    return profile;
   };
-  store.save = [folder](const std::string& text) {
-    OutputFolder out(folder + "/imu", 0600);
-    out.stage(kProfileFile, text);
-    out.commit();
-  };
+  store.save = [file](const std::string& text) { file->write(text); };
   return store;
 }
 #endif

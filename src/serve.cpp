@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "serve.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include "base/wall_time.h"
 #include "server/access/own_addresses.h"
 #include "server/access/pairing_notice.h"
 #include "sim/builtin_worlds.h"
@@ -14,6 +16,7 @@
 namespace dynslam {
 namespace {
 
+constexpr std::chrono::seconds kLookEvery{5};
 constexpr std::chrono::minutes kTendEvery{1};
 
 std::string name_of(const ServerConfig& config) {
@@ -59,15 +62,19 @@ void print(const std::string& text) {
 }  // namespace
 
 Serving::Serving(Ports& ports, const Clock& clock, const Config& config, const ServeOptions& options)
-    : access_(access_setup(config, options)), notes_(ports.map_notes, new_map_id(), notes_folder(options)) {
+    : access_(access_setup(config, options)),
+      notes_(ports.map_notes, utc_text(wall_now()), notes_folder(options)) {
+  if (!access_.notice().empty()) notes_.add_notice(access_.notice());
+  notes_.tend(access_.trouble());
   if (const std::string notice = notes_.notes().notice; !notice.empty()) spdlog::warn("{}", notice);
+  trouble_ = notes_.trouble();
   ServerConfig server = config.server;
   if (options.port) server.port = *options.port;
   server_.emplace(ports, clock, access_, notes_, server, facts_of(config, options), options.drives_itself);
   const std::string host = server.bind.empty() ? "localhost" : server.bind;
   print("http://" + host + ':' + std::to_string(server_->port()) + "/\n");
   access_.tend(AccessTime::now());
-  tell_owner_code();
+  tell_where();
   tends_ = std::thread([this] { tend(); });
 }
 
@@ -76,22 +83,46 @@ Serving::~Serving() {
   tends_.join();
 }
 
-/// Whenever it is another than before: it gets old, and there is a new one when nobody is an admin any more.
-void Serving::tell_owner_code() {
-  const auto code = access_.owner_code(AccessTime::now());
-  if (!code || code->text == owner_code_) return;
-  owner_code_ = code->text;
+/// The code whenever it is another than before: it gets old, and there is a new one when nobody is an admin
+/// any more. The address whenever it is another: a network may come long after the program.
+void Serving::tell_where() {
   std::vector<std::string> addresses = own_addresses();
+  access_.set_addresses(addresses);
   if (!Server::answers_ipv6())
     std::erase_if(addresses, [](const std::string& a) { return a.find(':') != std::string::npos; });
-  print(pairing_notice(*code, addresses, server_->port()));
+  const auto code = access_.owner_code(AccessTime::now());
+  const std::string code_text = code ? code->text : "";
+  std::vector<std::string> urls = page_urls(addresses, server_->port());
+  urls.resize(std::min<std::size_t>(urls.size(), 1));
+  const bool is_news = urls != where_ || (code && code_text != owner_code_);
+  owner_code_ = code_text;
+  where_ = std::move(urls);
+  if (!is_news) return;
+  print(code ? pairing_notice(*code, addresses, server_->port()) : page_notice(addresses, server_->port()));
+}
+
+/// In the log, when one begins and when it ends.
+void Serving::tell_trouble() {
+  const std::string trouble = notes_.trouble();
+  if (trouble == trouble_) return;
+  trouble_ = trouble;
+  if (trouble.empty()) {
+    spdlog::info("all is saved again");
+  } else {
+    spdlog::warn("nothing is saved until this is mended: {}", trouble);
+  }
 }
 
 void Serving::tend() {
-  while (!ends_.wait(std::chrono::steady_clock::now() + kTendEvery)) {
-    access_.set_addresses(own_addresses());
-    access_.tend(AccessTime::now());
-    tell_owner_code();
+  auto due = std::chrono::steady_clock::now() + kTendEvery;
+  while (!ends_.wait(std::chrono::steady_clock::now() + kLookEvery)) {
+    tell_where();
+    if (std::chrono::steady_clock::now() >= due) {
+      access_.tend(AccessTime::now());
+      notes_.tend(access_.trouble());
+      due = std::chrono::steady_clock::now() + kTendEvery;
+    }
+    tell_trouble();
   }
 }
 

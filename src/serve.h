@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "config.h"
 #include "robot/ports.h"
@@ -34,12 +35,15 @@ class Serving {
 
  private:
   void tend();
-  void tell_owner_code();
+  void tell_where();
+  void tell_trouble();
 
   Access access_;
   NoteBook notes_;
   std::optional<Server> server_;
-  std::string owner_code_;  ///< as told last
+  std::string owner_code_;          ///< as told last, as are the two that follow
+  std::vector<std::string> where_;  ///< the page's first address, if it has one
+  std::string trouble_;
   StopSignal ends_;
   std::thread tends_;
 };

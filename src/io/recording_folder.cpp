@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kDated = "recording-";
 constexpr std::string_view kPrefix = "ring-", kSuffix = ".mcap";
 constexpr std::size_t kDigits = 8;
 
@@ -58,11 +59,19 @@ std::vector<RingFile> ring_files(const std::string& folder) {
 }  // namespace
 
 std::string RecordingFolder::new_file(std::string_view name) const {
-  const std::string stem = "recording-" + std::string(name);
+  const std::string stem = kDated + std::string(name);
   fs::path path = fs::path(path_) / (stem + std::string(kSuffix));
   for (int i = 2; fs::exists(path); ++i)
     path = fs::path(path_) / (stem + '-' + std::to_string(i) + std::string(kSuffix));
   return path.string();
+}
+
+std::string RecordingFolder::new_dated_file(WallTime now) const {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator it(path_, error), end; !error && it != end; it.increment(error))
+    if (const std::string name = it->path().filename(); name.starts_with(kDated)) names.push_back(name);
+  return new_file(utc_text(time_after(names, now)));
 }
 
 std::string RecordingFolder::next_in_ring() const {

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/wall_time.h"
+
 namespace dynslam {
 
 /// The folder that keeps recordings: those that somebody asked for, which stay, and a ring of numbered files
@@ -15,6 +17,10 @@ class RecordingFolder {
 
   /// `recording-NAME.mcap`, or with a number behind the name where there is one already.
   std::string new_file(std::string_view name) const;
+
+  /// The same by the date, later than all that have one in their names: so names sort as they were given,
+  /// whatever the clock does.
+  std::string new_dated_file(WallTime now) const;
 
   /// The next file of the ring.
   std::string next_in_ring() const;

@@ -13,8 +13,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/error.h"
-
 namespace dynslam {
 namespace {
 
@@ -23,6 +21,15 @@ std::string cannot_write(const std::string& path, int error) {
 }
 
 std::string temporary_name(const std::string& name) { return "." + name + ".partial"; }
+
+/// Best effort: that a folder which was just made is still there when the power was lost.
+void sync_parent(const std::string& path) {
+  const std::string parent = (std::filesystem::path(path) / "..").string();
+  const int folder = ::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;
+  ::fsync(folder);
+  ::close(folder);
+}
 
 /// A file that is being written; errors are runtime_errors that name `shown_path`.
 class FileInWork {
@@ -71,8 +78,9 @@ class FileInWork {
 OutputFolder::OutputFolder(std::string path, unsigned file_mode)
     : path_(std::move(path)), file_mode_(file_mode) {
   std::error_code error;
-  std::filesystem::create_directories(path_, error);
+  const bool is_new = std::filesystem::create_directories(path_, error);
   if (error) throw InputError(cannot_write(path_, error.value()));
+  if (is_new) sync_parent(path_);
   open_and_lock();
   try_writing();
 }
@@ -88,7 +96,7 @@ void OutputFolder::open_and_lock() {
   // A file system that knows no locks (some network ones) is used without.
   if (::flock(folder_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(folder_);
-    throw InputError("cannot write to " + path_ + ": another run is writing there");
+    throw FolderInUse("cannot write to " + path_ + ": another run is writing there");
   }
 }
 

@@ -6,9 +6,15 @@
 #include <string_view>
 #include <vector>
 
+#include "base/error.h"
 #include "io/byte_sink.h"
 
 namespace dynslam {
+
+/// Another run writes to the folder.
+struct FolderInUse : InputError {
+  using InputError::InputError;
+};
 
 /// A folder that gets its results all together or not at all. Files are first written beside their final
 /// names as
@@ -20,7 +26,7 @@ namespace dynslam {
 class OutputFolder {
  public:
   /// Creates the folder and its parents where missing and tries that files can be written, long before there
-  /// are any. Throws InputError when not, or when another run holds the folder. `file_mode` is who may read
+  /// are any. Throws InputError when not, FolderInUse when another run holds it. `file_mode` is who may read
   /// and write the files, less what the umask takes away.
   explicit OutputFolder(std::string path, unsigned file_mode = 0666);
 

@@ -2,8 +2,6 @@
 #include "robot/recorder_stage.h"
 
 #include <algorithm>
-#include <array>
-#include <ctime>
 #include <exception>
 
 namespace dynslam {
@@ -19,15 +17,6 @@ constexpr Duration kRingAgain = std::chrono::seconds(10);
 constexpr Duration kPublishEvery = std::chrono::seconds(1);
 
 constexpr std::uint64_t mib(int n) { return static_cast<std::uint64_t>(n) << 20; }
-
-/// Now, on the wall.
-std::string utc_text(const char* format) {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  std::array<char, 40> text{};
-  return {text.data(), std::strftime(text.data(), text.size(), format, &parts)};
-}
 
 }  // namespace
 
@@ -95,14 +84,14 @@ std::string RecorderStage::next_path(Time now) {
   }
   if (!asked_->file.empty()) return asked_->file;
   const auto seconds = std::chrono::floor<std::chrono::seconds>(now.time_since_epoch());
-  return folder_.new_file(live_ ? utc_text("%Y%m%d-%H%M%S") : std::to_string(seconds.count()));
+  return wall_ ? folder_.new_dated_file(wall_()) : folder_.new_file(std::to_string(seconds.count()));
 }
 
 /// Stamps are by the robot's clock; this is how they lie on the wall.
 RecordingAbout RecorderStage::about_at(Time now) const {
   RecordingAbout about = about_;
   about.fields["begun_robot_ns"] = std::to_string(now.time_since_epoch().count());
-  if (live_) about.fields["begun_utc"] = utc_text("%Y-%m-%dT%H:%M:%SZ");
+  if (wall_) about.fields["begun_utc"] = utc_text(wall_(), "%Y-%m-%dT%H:%M:%SZ");
   return about;
 }
 
@@ -122,7 +111,7 @@ void RecorderStage::keep_whole(Time now) {
     run_->file.close_chunk();
     run_->chunk_begun = now;
   }
-  if (live_ && now >= run_->sync_due) {
+  if (wall_ && now >= run_->sync_due) {
     run_->file.file().sync_soon();
     run_->sync_due = now + kSyncEvery;
   }
@@ -140,7 +129,7 @@ void RecorderStage::keep_small(Time now) {
     const std::string trouble = run_->file.finish();
     if (!trouble.empty()) return give_up(trouble);
     if (config_.camera) --ports_.watchers;
-    if (live_) run_->file.file().sync_soon();
+    if (wall_) run_->file.file().sync_soon();
     retiring_ = std::move(run_);
     begin(now);
   }

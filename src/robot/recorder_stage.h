@@ -3,12 +3,14 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "base/wall_time.h"
 #include "io/mcap_file.h"
 #include "io/recording_folder.h"
 #include "robot/event_writer.h"
@@ -49,7 +51,7 @@ class RecorderStage {
 
   /// The clock runs by itself: files are put on the disk every few seconds and say the date. Without this the
   /// same events give the same bytes.
-  void run_live() { live_ = true; }
+  void run_live(std::function<WallTime()> wall = wall_now) { wall_ = std::move(wall); }
 
   /// Waits a moment for events and writes them; begins and ends recordings as wished.
   void turn();
@@ -87,7 +89,8 @@ class RecorderStage {
   RecordingFolder folder_;
   BoundedQueue<RecorderEvent> events_{kQueue};
   std::atomic<bool> active_{false};
-  bool live_ = false, closed_ = false;
+  std::function<WallTime()> wall_;  ///< empty: the clock does not run by itself
+  bool closed_ = false;
   std::uint64_t wish_seen_ = 0;
   std::optional<RecordingWish> asked_;  ///< what is recorded because somebody wants it
   Time ring_again_;                     ///< when a ring that could not be written is tried once more

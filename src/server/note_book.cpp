@@ -2,12 +2,10 @@
 #include "server/note_book.h"
 
 #include <algorithm>
-#include <array>
-#include <ctime>
 #include <filesystem>
 #include <utility>
 
-#include "base/error.h"
+#include "base/wall_time.h"
 
 namespace dynslam {
 namespace {
@@ -47,43 +45,40 @@ NoteBook::Refused refused(const std::optional<std::string>& problem) {
   return problem ? NoteBook::Refused({422, *problem}) : std::nullopt;
 }
 
-void move_away(const fs::path& from, const fs::path& to) {
+/// As a further sentence.
+void append(std::string& text, const std::string& sentence) {
+  if (!text.empty()) text += ' ';
+  text += sentence;
+}
+
+bool is_older(const std::string& name) { return name.starts_with("notes-") && name.ends_with(".json"); }
+
+std::vector<std::string> older_names(const fs::path& folder) {
+  std::vector<std::string> names;
   std::error_code failed;
-  fs::rename(from, to, failed);
-  if (failed)
-    throw InputError("cannot move " + from.string() + " to " + to.string() + ": " + failed.message());
+  for (auto it = fs::directory_iterator(folder, failed); !failed && it != fs::directory_iterator();
+       it.increment(failed))
+    if (const std::string name = it->path().filename(); is_older(name)) names.push_back(name);
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
-/// A clock that is set back may give two maps one id.
-std::string free_name(const fs::path& folder, const std::string& stem) {
-  std::string name = stem + ".json";
-  for (int n = 2; fs::exists(folder / name); ++n) name = stem + '-' + std::to_string(n) + ".json";
-  return name;
+/// With a later time where that of the id is not after all that are there: the clock was set back.
+std::string name_of_older(const std::string& map_id, const fs::path& folder) {
+  const auto began = time_in_name(map_id);
+  return "notes-" + (began ? utc_text(time_after(older_names(folder), *began)) : map_id);
 }
 
-/// Of the older maps; those of the newest stay, and `newest` does though its name may tell of a clock that
-/// was wrong.
+/// Of the older maps; those of the newest stay, and `newest` does though its id may tell nothing of the time.
 void remove_oldest(const fs::path& folder, const std::string& newest) {
-  std::vector<fs::path> older;
+  std::vector<std::string> older = older_names(folder);
+  std::erase(older, newest);
   std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder, failed)) {
-    const std::string name = entry.path().filename();
-    if (name != newest && name.starts_with("notes-") && name.ends_with(".json"))
-      older.push_back(entry.path());
-  }
-  std::sort(older.begin(), older.end());
-  for (std::size_t i = 0; i + NoteBook::kOlderKept <= older.size(); ++i) fs::remove(older[i], failed);
+  for (std::size_t i = 0; i + NoteBook::kOlderKept <= older.size(); ++i)
+    fs::remove(folder / older[i], failed);
 }
 
 }  // namespace
-
-std::string new_map_id() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  std::array<char, 40> text{};
-  return {text.data(), std::strftime(text.data(), text.size(), "%Y%m%d-%H%M%S", &parts)};
-}
 
 NoteBook::NoteBook(Latest<MapNotes>& robot, std::string map_id, const std::optional<std::string>& folder)
     : robot_(robot), map_id_(std::move(map_id)), notes_{map_id_, {}} {
@@ -91,58 +86,78 @@ NoteBook::NoteBook(Latest<MapNotes>& robot, std::string map_id, const std::optio
   tell();
 }
 
-/// What is new is saved for the notice; that it cannot be is no reason not to start.
 void NoteBook::open(const std::string& folder) {
   file_.emplace(folder, "notes.json");
-  if (const auto older = take_older()) notes_.notice = set_aside(*older);
-  try {
-    if (!notes_.notice.empty()) file_->write(notes_text(notes_));
-  } catch (const std::runtime_error&) {
-    return;
-  }
-}
-
-std::optional<Notes> NoteBook::take_older() {
-  try {
-    const auto text = file_->read();
-    return text ? std::optional(notes_from(*text)) : std::nullopt;
-  } catch (const InputError& error) {
-    notes_.notice = std::string("What was drawn on the map could not be read (") + error.what() +
-                    "). It is kept as notes.json.damaged.";
-  }
-  move_away(file_->path(), file_->path() + ".damaged");
-  return std::nullopt;
+  trouble_ = file_->trouble();
+  std::optional<Notes> older;
+  notes_.notice = file_->load([&older](const std::string& text) { older = notes_from(text); });
+  if (older) notes_.notice = set_aside(*older);
+  if (!notes_.notice.empty()) save();
 }
 
 /// Returns what people should know of it.
-std::string NoteBook::set_aside(const Notes& older) const {
+std::string NoteBook::set_aside(const Notes& older) {
   if (older.is_empty()) return older.notice;
   const fs::path folder = fs::path(file_->path()).parent_path();
-  const std::string name = free_name(folder, "notes-" + older.map_id);
-  move_away(file_->path(), folder / name);
+  const std::string name = file_->free_name(name_of_older(older.map_id, folder), ".json");
+  const std::string what =
+      "The robot began a new map. What was drawn on the one before does not hold any more; it is ";
+  if (!file_->set_aside(name)) return what + "still in " + file_->path() + '.';
   remove_oldest(folder, name);
-  return "The robot began a new map. What was drawn on the one before does not hold any more; it is kept "
-         "as " +
-         name + ".";
+  return what + "kept as " + name + '.';
 }
 
 Notes NoteBook::notes() const {
   const std::lock_guard lock(mutex_);
-  return notes_;
+  Notes notes = notes_;
+  const std::string& trouble = trouble_now();
+  if (!trouble.empty() && trouble != dismissed_)
+    append(notes.notice, "Nothing is saved until this is mended: " + trouble + '.');
+  return notes;
 }
 
 NoteBook::Refused NoteBook::change(const std::function<Refused(Notes&)>& edit) {
   const std::lock_guard lock(mutex_);
   Notes changed = notes_;
   if (auto refusal = edit(changed)) return refusal;
-  try {
-    if (file_) file_->write(notes_text(changed));
-  } catch (const std::exception& error) {
-    return Refusal{507, std::string("it was not saved: ") + error.what()};
-  }
   notes_ = std::move(changed);
+  save();
   tell();
   return std::nullopt;
+}
+
+void NoteBook::save() {
+  if (!file_) return;
+  try {
+    file_->write(notes_text(notes_));
+  } catch (const std::exception& error) {
+    trouble_ = error.what();
+    return;
+  }
+  if (!trouble_.empty()) dismissed_.clear();
+  trouble_.clear();
+}
+
+void NoteBook::add_notice(const std::string& notice) {
+  change([&](Notes& notes) -> Refused {
+    append(notes.notice, notice);
+    return std::nullopt;
+  });
+}
+
+void NoteBook::tend(const std::string& others_trouble) {
+  const std::lock_guard lock(mutex_);
+  const std::string before = trouble_now();
+  others_trouble_ = others_trouble;
+  if (!trouble_.empty()) save();
+  if (trouble_now() == before) return;
+  dismissed_.clear();
+  tell();
+}
+
+std::string NoteBook::trouble() const {
+  const std::lock_guard lock(mutex_);
+  return trouble_now();
 }
 
 NoteBook::Refused NoteBook::put_place(const Destination& place, Namesake older) {
@@ -206,8 +221,9 @@ NoteBook::Refused NoteBook::remove_home() {
 }
 
 NoteBook::Refused NoteBook::dismiss_notice() {
-  return change([](Notes& notes) -> Refused {
+  return change([this](Notes& notes) -> Refused {
     notes.notice.clear();
+    dismissed_ = trouble_now();
     return std::nullopt;
   });
 }

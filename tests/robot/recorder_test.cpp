@@ -310,5 +310,27 @@ TEST_F(Recorder, BeginsAndEndsWhileTheRobotLives) {
   EXPECT_THAT(contents(files()[0]), HasSubstr("begun_utc"));
 }
 
+TEST_F(Recorder, NamesSortAsTheyWereMadeWhateverTheClockDoes) {
+  const SteppedClock clock;
+  Ports ports;
+  WallTime wall = std::chrono::sys_days(std::chrono::year(2026) / 11 / 26);
+  RecorderStage recorder(config_.recorder, {}, clock, ports);
+  recorder.run_live([&wall] { return wall; });
+  std::vector<std::string> made;
+  for (const int years : {0, 0, -56, 57, -1, 0}) {
+    wall += std::chrono::years(years);
+    ports.recording_wish.put({true, {}});
+    recorder.turn();
+    made.push_back(ports.recording.get().value->file);
+    ports.recording_wish.put({false, {}});
+    recorder.turn();
+  }
+  EXPECT_TRUE(std::is_sorted(made.begin(), made.end()));
+  ASSERT_EQ(files().size(), made.size()) << "none over another";
+  EXPECT_THAT(made[0], HasSubstr("recording-20261126-000000.mcap"));
+  EXPECT_THAT(made[2], HasSubstr("recording-20261126-000002.mcap"));
+  for (const fs::path& file : files()) EXPECT_EQ(read_all(contents(file)).damage, std::nullopt) << file;
+}
+
 }  // namespace
 }  // namespace dynslam

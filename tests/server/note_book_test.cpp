@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "server/note_book.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -199,31 +200,83 @@ TEST_F(NoteBookTest, SetsAsideWhatCannotBeReadAndGoesOn) {
     EXPECT_EQ(text("notes.json.damaged"), damaged);
     EXPECT_TRUE(book->notes().is_empty());
     EXPECT_EQ(status(book->put_place({{0, 0}, {}, "p"})), 204);
+    fs::remove(folder_ / "notes.json.damaged");
   }
 }
 
-TEST_F(NoteBookTest, AChangeThatCannotBeSavedIsRefused) {
+TEST_F(NoteBookTest, WhatIsTruncatedAnywhereIsSetAside) {
+  std::string whole;
+  {
+    const auto book = start("1");
+    EXPECT_FALSE(book->put_area(stairs_));
+    whole = text("notes.json");
+  }
+  for (std::size_t length = 0; length + 1 < whole.size(); ++length) {
+    write("notes.json", whole.substr(0, length));
+    EXPECT_THAT(start("2")->notes().notice, HasSubstr("notes.json.damaged")) << length;
+    EXPECT_EQ(text("notes.json.damaged"), whole.substr(0, length));
+    fs::remove(folder_ / "notes.json.damaged");
+  }
+}
+
+TEST_F(NoteBookTest, AClockThatIsSetBackMakesNoOlderMapOlder) {
+  std::vector<std::string> kept;
+  for (int run = 0; run < 14; ++run) {
+    const auto book = start(run % 3 == 0 ? "20261126-10000" + std::to_string(run / 3) : "19700101-000010");
+    EXPECT_EQ(status(book->put_place({{0, 0}, {}, "run " + std::to_string(run)})), 204);
+  }
+  std::vector<fs::path> files(fs::directory_iterator(folder_), {});
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files)
+    if (const std::string name = file.filename(); name.starts_with("notes-"))
+      kept.push_back(notes_from(text(name)).places.at(0).name);
+  std::vector<std::string> newest;
+  for (int run = 3; run < 13; ++run) newest.push_back("run " + std::to_string(run));
+  EXPECT_EQ(kept, newest) << "in this order";
+}
+
+TEST_F(NoteBookTest, WhatCannotBeSavedIsKeptInMemoryAndSaidUntilItCan) {
   const auto book = start("1");
   EXPECT_EQ(status(book->put_place({{0, 0}, {}, "p"})), 204);
   const std::string saved = text("notes.json");
-  const auto version = robot_.get().version;
   {
     const test::FileSizeLimit full(100);
-    const auto refused = book->put_area(stairs_);
-    EXPECT_EQ(status(refused), 507);
-    EXPECT_THAT(refused->why, HasSubstr("notes.json"));
+    EXPECT_EQ(status(book->put_area(stairs_)), 204);
+    EXPECT_EQ(told().forbidden_map.size(), 1U) << "the robot keeps out of there";
+    EXPECT_THAT(book->trouble(), HasSubstr("notes.json"));
+    EXPECT_THAT(book->notes().notice, HasSubstr("Nothing is saved until this is mended: cannot write to "));
+    EXPECT_EQ(text("notes.json"), saved);
+    EXPECT_EQ(status(book->dismiss_notice()), 204);
+    EXPECT_EQ(book->notes().notice, "") << "it was read";
+    const auto version = robot_.get().version;
+    book->tend("");
+    EXPECT_EQ(robot_.get().version, version) << "no news";
   }
-  EXPECT_TRUE(book->notes().areas.empty());
-  EXPECT_EQ(robot_.get().version, version);
-  EXPECT_EQ(text("notes.json"), saved);
-  EXPECT_EQ(status(book->put_area(stairs_)), 204);
+  book->tend("");
+  EXPECT_EQ(book->trouble(), "");
+  EXPECT_EQ(notes_from(text("notes.json")).areas.size(), 1U);
+  const test::FileSizeLimit full(100);
+  EXPECT_EQ(status(book->put_home({{1, 2}, {}, {}})), 204);
+  EXPECT_NE(book->notes().notice, "") << "it is new again";
 }
 
-TEST(MapId, IsTheTimeOfTheStart) {
-  const std::string id = new_map_id();
-  ASSERT_EQ(id.size(), 15U);
-  EXPECT_EQ(id[8], '-');
-  EXPECT_GE(id, "20200101-000000");
+TEST_F(NoteBookTest, DoesWithoutAFolder) {
+  NoteBook book(robot_, "1", "/proc/nowhere");
+  EXPECT_THAT(book.notes().notice, HasSubstr("/proc/nowhere"));
+  EXPECT_EQ(status(book.put_area(stairs_)), 204);
+  EXPECT_EQ(book.notes().areas.size(), 1U);
+}
+
+TEST_F(NoteBookTest, TellsOfTroublesOfOthersAndOfWhatTheyFound) {
+  const auto book = start("1");
+  const auto version = robot_.get().version;
+  book->tend("the disk is full");
+  EXPECT_NE(robot_.get().version, version) << "people look again";
+  EXPECT_THAT(book->notes().notice, HasSubstr("the disk is full"));
+  book->tend("");
+  EXPECT_EQ(book->notes().notice, "");
+  book->add_notice("A file was broken.");
+  EXPECT_EQ(book->notes().notice, "A file was broken.");
 }
 
 }  // namespace

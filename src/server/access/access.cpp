@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/state_file.h"
 #include "server/access/back_off.h"
 #include "server/access/credential_book.h"
-#include "server/access/state_file.h"
 #include "server/access/way_in.h"
 
 namespace dynslam {
@@ -16,7 +16,6 @@ namespace {
 using Kind = Credential::Kind;
 
 constexpr std::chrono::hours kOwnerCodeLasts{24};
-constexpr std::chrono::minutes kSeenAgainAfter{1};  // what "last seen" is good to
 constexpr std::chrono::minutes kSaveSeenEvery{10};  // spares the SD card
 constexpr const char* kCookieAttributes = "; Path=/; HttpOnly; SameSite=Strict";
 constexpr int kCookieLasts_s = 400 * 24 * 3600;  // the most that browsers allow; the robot knows when it ends
@@ -77,8 +76,7 @@ struct Access::State {
   using Check = std::optional<WayIn::Refusal> (WayIn::*)(const AccessRequest&) const;
   Judgement judge(const AccessRequest& request, Role needed, const AccessTime& now, Check check);
   Judgement identify(const AccessRequest& request, const Shown& shown, const AccessTime& now);
-  void see(Credential& credential, const AccessTime& now);
-  void forgive_clock(const AccessTime& now);
+  AccessTime follow_clock(const AccessTime& now);
   Admission take(const std::string& typed, const std::string& address, const AccessTime& now,
                  PairingCode& code);
   Admission admit(Kind kind, const std::string& name, Role role, const AccessTime& now);
@@ -89,6 +87,7 @@ struct Access::State {
   const bool trust_loopback;
   std::mutex saving;
   std::optional<StateFile> file;  ///< by `saving`
+  std::string notice;             ///< of the state that was read
 
   mutable std::mutex mutex;  ///< of all that follows
   WayIn way_in;
@@ -97,35 +96,35 @@ struct Access::State {
   CredentialBook book;
   Counters counts;
   bool unsaved = false;
+  std::string trouble;  ///< with saving
   std::optional<std::chrono::steady_clock::time_point> seen_saved;
-  std::optional<AccessTime> tended;
+  std::optional<AccessTime> latest;
 };
 
 /// A clock that was put right by years, as that of a Pi is whenever it finds the internet, is nobody's
-/// absence.
-void Access::State::forgive_clock(const AccessTime& now) {
+/// absence. Before anything else is done with a time. Returns the latest of all threads' times: one that was
+/// read before the clock was put right must not count after that.
+AccessTime Access::State::follow_clock(const AccessTime& now) {
   constexpr std::chrono::hours kJump{1};
-  if (tended) {
-    const auto passed = std::chrono::floor<std::chrono::seconds>(now.steady - tended->steady);
-    const auto jump = now.wall - tended->wall - passed;
-    if (jump > kJump) {
-      book.forgive(jump);
+  if (!latest) book.begin(now.wall);
+  if (latest && now.steady < latest->steady) return *latest;
+  if (latest) {
+    const auto passed = std::chrono::floor<std::chrono::seconds>(now.steady - latest->steady);
+    if (now.wall - latest->wall - passed > kJump) {
+      book.put_forward(latest->wall, now.wall);
       unsaved = true;
     }
   }
-  tended = now;
+  latest = now;
+  return now;
 }
 
 void Access::State::load(const std::string& folder) {
-  file.emplace(folder);
-  const auto text = file->read();
-  if (!text) return;
-  try {
-    book.read_json(*text);
-  } catch (const InputError& error) {
-    throw InputError("cannot use " + file->path() + ": it holds " + error.what() +
-                     ". It says who may use the robot, so it is left as it is; move it away to pair anew");
-  }
+  file.emplace(folder, "access.json");
+  notice = file->load([this](const std::string& text) { book.read_json(text); });
+  if (!notice.empty()) notice += " Nobody is paired any more: see the console for the code.";
+  trouble = file->trouble();
+  unsaved = !trouble.empty();
 }
 
 Judgement Access::State::judge(const AccessRequest& request, Role needed, const AccessTime& now,
@@ -136,7 +135,7 @@ Judgement Access::State::judge(const AccessRequest& request, Role needed, const 
     counts.add(refusal->counter);
     return refused(403, refusal->why);
   }
-  Judgement judgement = identify(request, shown, now);
+  Judgement judgement = identify(request, shown, follow_clock(now));
   if (judgement.role >= needed) return judgement;
   if (judgement.role != Role::kNone) {
     counts.add("access.role_too_low");
@@ -155,17 +154,10 @@ Judgement Access::State::identify(const AccessRequest& request, const Shown& sho
   for (const Digest& digest : shown.digests) {
     Credential* found = book.find(shown.kind, digest, now.wall);
     if (found == nullptr) continue;
-    see(*found, now);
+    if (CredentialBook::see(*found, now.wall)) unsaved = true;
     return {200, {}, found->role, found->id, found->name};
   }
   return {};
-}
-
-void Access::State::see(Credential& credential, const AccessTime& now) {
-  // Also when the clock was set back.
-  if (now.wall >= credential.last_seen && now.wall - credential.last_seen < kSeenAgainAfter) return;
-  credential.last_seen = now.wall;
-  unsaved = true;
 }
 
 /// Takes the code that was typed; otherwise says why not.
@@ -193,19 +185,17 @@ Admission Access::State::admit(Kind kind, const std::string& name, Role role, co
   if (!is_name(name)) return no_admission(422, "a name has 1 to 64 bytes and no control characters");
   Admission admission;
   admission.secret = new_secret();
-  admission.credential = {new_id(), kind, name, role, digest_of(admission.secret), now.wall, now.wall};
   if (kind == Kind::kSession) admission.set_cookie = cookie(admission.secret, kCookieLasts_s);
   {
     const std::lock_guard lock(mutex);
-    if (book.is_full()) book.drop_expired(now.wall);
+    const WallTime wall = follow_clock(now).wall;
+    admission.credential = {new_id(), kind, name, role, digest_of(admission.secret), wall, wall};
+    if (book.is_full()) book.drop_expired(wall);
     if (book.is_full()) return no_admission(409, "too many devices and tokens; revoke some first");
     book.add(admission.credential);
   }
-  const std::string trouble = save();
-  if (trouble.empty()) return admission;
-  const std::lock_guard lock(mutex);
-  book.remove(admission.credential.id);
-  return no_admission(500, trouble);
+  save();
+  return admission;
 }
 
 std::string Access::State::save() {
@@ -219,12 +209,14 @@ std::string Access::State::save() {
   }
   try {
     file->write(text);
+    const std::lock_guard short_lock(mutex);
+    trouble.clear();
     return {};
   } catch (const std::exception& error) {
     const std::lock_guard short_lock(mutex);
     unsaved = true;
     counts.add("access.not_saved");
-    return error.what();
+    return trouble = error.what();
   }
 }
 
@@ -245,16 +237,17 @@ Judgement Access::judge_stop(const AccessRequest& request, const AccessTime& now
 std::string Access::why_ended(const std::string& id, Role needed, const AccessTime& now) {
   if (needed == Role::kNone || (id == kLoopbackId && state_->trust_loopback)) return {};
   const std::lock_guard lock(state_->mutex);
-  Credential* found = state_->book.find(id, now.wall);
+  const WallTime wall = state_->follow_clock(now).wall;
+  Credential* found = state_->book.find(id, wall);
   if (found == nullptr) return "signed out, or not seen for too long";
   if (found->role < needed) return "this needs " + article(needed);
-  state_->see(*found, now);
+  if (CredentialBook::see(*found, wall)) state_->unsaved = true;
   return {};
 }
 
 std::optional<PairingCode> Access::owner_code(const AccessTime& now) {
   const std::lock_guard lock(state_->mutex);
-  if (state_->book.has_admin(now.wall)) return std::nullopt;
+  if (state_->book.has_admin(state_->follow_clock(now).wall)) return std::nullopt;
   auto code = state_->codes.for_owner(now.steady);
   return code ? code : state_->codes.add(Role::kAdmin, true, now.steady + kOwnerCodeLasts);
 }
@@ -286,7 +279,7 @@ Admission Access::make_token(const std::string& name, Role role, const AccessTim
 
 std::vector<Credential> Access::credentials(const AccessTime& now) const {
   const std::lock_guard lock(state_->mutex);
-  return state_->book.all(now.wall);
+  return state_->book.all(state_->follow_clock(now).wall);
 }
 
 Judgement Access::revoke(const std::string& id) {
@@ -310,11 +303,19 @@ void Access::set_addresses(const std::vector<std::string>& addresses) {
 void Access::tend(const AccessTime& now) {
   {
     const std::lock_guard lock(state_->mutex);
-    state_->forgive_clock(now);
-    if (!state_->unsaved || (state_->seen_saved && now.steady - *state_->seen_saved < kSaveSeenEvery)) return;
+    state_->follow_clock(now);
+    const bool is_early = state_->seen_saved && now.steady - *state_->seen_saved < kSaveSeenEvery;
+    if (!state_->unsaved || (is_early && state_->trouble.empty())) return;
     state_->seen_saved = now.steady;
   }
   state_->save();
+}
+
+const std::string& Access::notice() const { return state_->notice; }
+
+std::string Access::trouble() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->trouble;
 }
 
 Counters Access::counts() const {

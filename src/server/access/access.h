@@ -37,7 +37,7 @@ struct Judgement {
 
 /// What comes of asking for a new credential.
 struct Admission {
-  int status = 200;       ///< or 401 (code), 409 (too many), 422 (name), 429 (wait), 500 (disk)
+  int status = 200;       ///< or 401 (code), 409 (too many), 422 (name), 429 (wait)
   std::string why;        ///< one sentence for the client; empty when it worked
   int retry_after_s = 0;  ///< with 429: seconds, for the header Retry-After
   Credential credential;
@@ -56,9 +56,8 @@ class Access {
   /// The `id` of who is trusted for asking from this machine.
   static constexpr const char* kLoopbackId = "loopback";
 
-  /// Reads the state. Throws InputError, in one line, when there is one that cannot be read or the folder
-  /// cannot be written to: without it anybody who sees the console would be the owner, and those who are
-  /// let in would be out.
+  /// Reads the state. One that cannot be used is set aside: whoever sees the console pairs anew. Throws
+  /// InputError, in one line, when another program holds the folder.
   explicit Access(AccessSetup setup);
   ~Access();  ///< saves; may wait for the disk
   Access(const Access&) = delete;
@@ -78,10 +77,11 @@ class Access {
   /// A code that lets one in, once. At the console it also helps an owner who has lost his phone. REQUIRES:
   /// not kNone.
   PairingCode invite(Role role, const AccessTime& now);
-  /// A session for a code. `address` is the client's, for its back-off. Waits for the disk.
+  /// A session for a code. `address` is the client's, for its back-off. Waits for the disk; where that does
+  /// not take it, it lasts until the program ends (trouble()).
   Admission pair(const std::string& code, const std::string& name, const std::string& address,
                  const AccessTime& now);
-  /// A bearer token for a program; it lasts until it is revoked. REQUIRES: not kNone. Waits for the disk.
+  /// A bearer token for a program; it lasts until it is revoked. REQUIRES: not kNone. As pair().
   Admission make_token(const std::string& name, Role role, const AccessTime& now);
 
   /// Those who are in, the oldest first.
@@ -97,6 +97,10 @@ class Access {
   /// Saves when who was last seen; to be called every minute or so, or sessions in use expire over
   /// restarts. Waits for the disk. Throws nothing; counts "access.not_saved".
   void tend(const AccessTime& now);
+  /// What people should know of the state that was read, one sentence; empty when all is well.
+  const std::string& notice() const;
+  /// Why who is let in cannot be saved at the moment, one line; empty when it is.
+  std::string trouble() const;
   /// What was refused, by reason, and "access.not_saved".
   Counters counts() const;
 

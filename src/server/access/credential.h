@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <chrono>
 #include <string>
 
+#include "base/wall_time.h"
 #include "server/access/role.h"
 #include "server/access/secrets.h"
 
@@ -18,7 +18,8 @@ struct Credential {
   std::string name;  ///< given by a person
   Role role = Role::kNone;
   Digest digest{};  ///< of the secret
-  std::chrono::sys_seconds created, last_seen;
+  WallTime created, last_seen;
+  bool seen_behind = false;  ///< since then, by a clock that was behind it; not kept
   bool operator==(const Credential&) const = default;
 };
 

@@ -17,7 +17,9 @@ using nlohmann::json;
 using Kind = Credential::Kind;
 
 constexpr int kVersion = 1;
-constexpr std::int64_t kLatest_s = 253402300799;  // the end of the year 9999
+constexpr WallTime kWritten = std::chrono::sys_days(std::chrono::year(2026) / 1 / 1);
+constexpr std::chrono::minutes kSeenAgainAfter{1};  // what "last seen" is good to
+constexpr std::int64_t kLatest_s = 253402300799;    // the end of the year 9999
 
 constexpr std::string_view to_string(Kind kind) { return kind == Kind::kSession ? "session" : "token"; }
 
@@ -39,10 +41,10 @@ std::int64_t whole_number(const json& number) {
   return number.get<std::int64_t>();
 }
 
-CredentialBook::WallTime time_from(const json& number) {
+WallTime time_from(const json& number) {
   const std::int64_t seconds = whole_number(number);
   if (seconds < 0 || seconds > kLatest_s) fail("a time that cannot be");
-  return CredentialBook::WallTime(std::chrono::seconds(seconds));
+  return WallTime(std::chrono::seconds(seconds));
 }
 
 Credential credential_from(const json& from) {
@@ -101,8 +103,25 @@ Credential* CredentialBook::find(const std::string& id, WallTime now) {
   return found != all_.end() && is_valid(*found, now) ? &*found : nullptr;
 }
 
-void CredentialBook::forgive(std::chrono::seconds absence) {
-  for (Credential& c : all_) c.last_seen += absence;
+/// A clock that is behind what was seen already was set back, or is not set yet: what is kept stays.
+bool CredentialBook::see(Credential& credential, WallTime now) {
+  credential.seen_behind = now < credential.last_seen;
+  if (now - credential.last_seen < kSeenAgainAfter) return false;
+  credential.last_seen = now;
+  return true;
+}
+
+void CredentialBook::begin(WallTime now) {
+  for (Credential& c : all_)
+    if (c.last_seen < kWritten) c.last_seen = std::max(c.last_seen, now);
+}
+
+void CredentialBook::put_forward(WallTime from, WallTime to) {
+  for (Credential& c : all_) {
+    if (c.last_seen <= from) c.last_seen += to - from;
+    if (c.seen_behind) c.last_seen = std::max(c.last_seen, to);
+    c.seen_behind = false;
+  }
 }
 
 bool CredentialBook::has_admin(WallTime now) const {

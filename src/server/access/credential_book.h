@@ -14,7 +14,6 @@ namespace dynslam {
 /// All that lets somebody in. Pure; the caller locks.
 class CredentialBook {
  public:
-  using WallTime = std::chrono::sys_seconds;
   static constexpr std::size_t kMost = 256;
   static constexpr std::size_t kLongestName = 64;  ///< bytes
 
@@ -30,8 +29,13 @@ class CredentialBook {
   /// Null when there is none, or it has expired. Compares with all, however early it matches.
   Credential* find(Credential::Kind kind, const Digest& digest, WallTime now);
   Credential* find(const std::string& id, WallTime now);
-  /// All were seen so much later than it was believed.
-  void forgive(std::chrono::seconds absence);
+  /// Its holder is there. Returns whether there is something to keep.
+  static bool see(Credential& credential, WallTime now);
+  /// The clock says `now`, and knows no better what it said before. What was seen before this program was
+  /// written was seen by a clock that was not set.
+  void begin(WallTime now);
+  /// The clock was put forward: what was seen by it is no older than before.
+  void put_forward(WallTime from, WallTime to);
   bool has_admin(WallTime now) const;
   /// The oldest first.
   std::vector<Credential> all(WallTime now) const;

@@ -19,20 +19,34 @@ int rank_of(const IpAddress& address) {
   return address.is_v4() ? 0 : 1;
 }
 
+const IpNetwork& link_local() {
+  static const IpNetwork network = *parse_network("fe80::/10");
+  return network;
+}
+
 bool is_dark(const QRcode& code, int x, int y) {
   if (x < 0 || y < 0 || x >= code.width || y >= code.width) return false;
   return (code.data[y * code.width + x] & 1) != 0;
 }
 
+/// What is said where only this machine itself is reached.
+std::string lack_of_network(const std::vector<std::string>& addresses) {
+  const bool is_there = std::any_of(addresses.begin(), addresses.end(), [](const std::string& text) {
+    const auto address = parse_ip(text.substr(0, text.find('/')));
+    return address && !address->is_loopback() && !link_local().contains(*address);
+  });
+  return is_there ? ""
+                  : "There is no network yet: join the robot to one; where to find it is told here then.\n";
+}
+
 }  // namespace
 
 std::vector<std::string> page_urls(const std::vector<std::string>& addresses, int port) {
-  static const IpNetwork kLinkLocal = *parse_network("fe80::/10");
   std::vector<std::pair<int, std::string>> ranked;
   for (const std::string& text : addresses) {
     const std::string host = text.substr(0, text.find('/'));
     const auto address = parse_ip(host);
-    if (!address || kLinkLocal.contains(*address)) continue;
+    if (!address || link_local().contains(*address)) continue;
     const std::string shown = host.find(':') == std::string::npos ? host : '[' + host + ']';
     ranked.emplace_back(rank_of(*address), "http://" + shown + ':' + std::to_string(port) + '/');
   }
@@ -42,6 +56,12 @@ std::vector<std::string> page_urls(const std::vector<std::string>& addresses, in
   urls.reserve(ranked.size());
   for (auto& [rank, url] : ranked) urls.push_back(std::move(url));
   return urls;
+}
+
+std::string page_notice(const std::vector<std::string>& addresses, int port) {
+  std::string text;
+  for (const std::string& url : page_urls(addresses, port)) text += "  " + url + '\n';
+  return "The robot's page is at\n" + text + lack_of_network(addresses);
 }
 
 std::string pairing_url(const std::string& page_url, const PairingCode& code) {
@@ -69,6 +89,7 @@ std::string pairing_notice(const PairingCode& code, const std::vector<std::strin
   text +=
       "Whoever enters the code " + code.text + " becomes its " + std::string(to_string(code.role)) + ":\n";
   for (const std::string& url : urls) text += "  " + pairing_url(url, code) + '\n';
+  text += lack_of_network(addresses);
   return urls.empty() ? text : text + qr_text(pairing_url(urls.front(), code));
 }
 

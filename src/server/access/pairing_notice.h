@@ -13,6 +13,9 @@ namespace dynslam {
 /// browsers cannot be told (IPv6 link-local) are left out.
 std::vector<std::string> page_urls(const std::vector<std::string>& addresses, int port);
 
+/// For the console and the journal: where the page is, or what to do while no network is there.
+std::string page_notice(const std::vector<std::string>& addresses, int port);
+
 /// The page that pairs by itself. What follows the '#' stays in the browser, out of any log.
 std::string pairing_url(const std::string& page_url, const PairingCode& code);
 

@@ -320,6 +320,29 @@ TEST(Access, HoldsOnlySoMany) {
       << "expired ones make room";
 }
 
+TEST(Access, AClockThatJumpsByYearsSignsNobodyOut) {
+  Robot robot;
+  const Admission idle = robot.invited(Role::kViewer);
+  AccessTime now = kStart;
+  for (const int years : {40, -40, -50, 50, 1, -1, 40, -40, -54, 54, 30, -30}) {
+    now.steady += seconds(10);
+    now.wall += seconds(10) + std::chrono::years(years);
+    EXPECT_EQ(robot.status(with_cookie(robot.owner), Role::kAdmin, now), 200) << years;
+    EXPECT_EQ(robot.access.why_ended(idle.credential.id, Role::kViewer, now), "") << years;
+    EXPECT_FALSE(robot.access.owner_code(now));
+  }
+  for (const Credential& one : robot.access.credentials(now))
+    EXPECT_LT(one.last_seen, kStart.wall + std::chrono::years(41)) << "the latest that the clock ever said";
+}
+
+TEST(Access, AThreadThatReadTheClockBeforeItWasSetTakesNothingBack) {
+  Robot robot;
+  const AccessTime set{kStart.steady + seconds(10), kStart.wall + std::chrono::years(50)};
+  EXPECT_EQ(robot.status(with_cookie(robot.owner), Role::kAdmin, set), 200);
+  EXPECT_EQ(robot.status(with_cookie(robot.owner), Role::kAdmin, later(seconds(9))), 200);
+  EXPECT_EQ(robot.access.credentials(set)[0].last_seen, set.wall);
+}
+
 TEST(Access, NoticesThatTheMachineMoved) {
   Robot robot;
   AccessRequest r = with_cookie(robot.owner);

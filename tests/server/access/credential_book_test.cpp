@@ -12,7 +12,7 @@ using std::chrono::days;
 using std::chrono::seconds;
 using Kind = Credential::Kind;
 
-constexpr CredentialBook::WallTime kDay{days(20000)};
+constexpr WallTime kDay{days(20000)};
 
 Credential credential(const std::string& id, Kind kind = Kind::kSession, Role role = Role::kViewer) {
   return {id, kind, "Anna's phone", role, digest_of(id), kDay, kDay};

@@ -78,7 +78,21 @@ TEST(PairingNotice, SaysWhatToDo) {
       << text;
   EXPECT_TRUE(text.ends_with(qr_text("http://192.168.1.7:8080/#pair=ABCD-0123")));
   const PairingCode guest{"ABCD-0123", Role::kViewer, false, {}};
-  EXPECT_EQ(pairing_notice(guest, {}, 8080), "Whoever enters the code ABCD-0123 becomes its viewer:\n");
+  EXPECT_TRUE(
+      pairing_notice(guest, {}, 8080).starts_with("Whoever enters the code ABCD-0123 becomes its viewer:\n"));
+}
+
+TEST(PairingNotice, SaysThatThereIsNoNetworkYet) {
+  const std::string lack =
+      "There is no network yet: join the robot to one; where to find it is told here then.\n";
+  for (const std::vector<std::string>& only :
+       std::vector<std::vector<std::string>>{{}, {"127.0.0.1/8"}, {"fe80::1/64", "127.0.0.1/8", "::1/128"}}) {
+    EXPECT_THAT(pairing_notice(kCode, only, 8080), HasSubstr(lack));
+    EXPECT_THAT(page_notice(only, 8080), HasSubstr(lack));
+  }
+  EXPECT_THAT(pairing_notice(kCode, {"fd00::7/64", "::1/128"}, 8080), Not(HasSubstr("no network")));
+  EXPECT_EQ(page_notice({"192.168.1.7/24", "127.0.0.1/8"}, 80),
+            "The robot's page is at\n  http://192.168.1.7:80/\n  http://127.0.0.1:80/\n");
 }
 
 TEST(OwnAddresses, AreNetworks) {
