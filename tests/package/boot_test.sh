@@ -94,6 +94,12 @@ if prlimit --rtprio=50 true 2>/dev/null; then
 else
   echo "skipped: real-time scheduling, which this machine does not allow"
 fi
+# Flash wears out.
+written() { inside sh -c 'grep ^write_bytes "/proc/$1/io"; find /var/lib/dynslam -printf "%p %s %T@ %C@\n"' sh "$pid"; }
+sleep 2
+before=$(written)
+sleep 20
+check "it writes nothing while nobody asks for anything" test "$(written)" == "$before"
 inside systemctl kill --signal=KILL $unit
 within 60 "killed, it comes back" other_process
 pid=$(value MainPID)

@@ -24,21 +24,31 @@ export async function until(get, what, ms = 10000) {
 
 export class Robot {
   /** A simulated robot that waits for a driver, on a free port. */
-  static async start(...args) {
+  static start(...args) {
+    return Robot.launch(binary, "sim", ...(args.includes("--port") ? [] : ["--port", "0"]), ...args).serves();
+  }
+  /** A robot on this machine's own hardware, of which there is none. */
+  static run(...args) { return Robot.launch(binary, "run", "--set", "server.port=0", ...args).serves(); }
+
+  static launch(program, ...args) {
     const robot = new Robot();
-    const began = performance.now();
-    robot.process = spawn(binary, ["sim", ...(args.includes("--port") ? [] : ["--port", "0"]), ...args], { stdio: ["ignore", "pipe", "pipe"] });
+    robot.began = performance.now();
+    robot.process = spawn(program, args, { stdio: ["ignore", "pipe", "pipe"] });
     robot.output = "";
     for (const stream of [robot.process.stdout, robot.process.stderr])
       stream.on("data", (text) => { robot.output += text; });
     robot.ended = once(robot.process, "exit");
-    const [, port] = await until(() => /http:\/\/\S*?:(\d+)\//.exec(robot.output) ??
-      (robot.process.exitCode !== null && Promise.reject(new Error(robot.output))), "the address");
-    robot.port = Number(port);
-    robot.url = `http://127.0.0.1:${port}`;
-    robot.host = `127.0.0.1:${port}`;
-    robot.startMs = performance.now() - began;
     return robot;
+  }
+
+  async serves() {
+    const [, port] = await until(() => /http:\/\/\S*?:(\d+)\//.exec(this.output) ??
+      (this.process.exitCode !== null && Promise.reject(new Error(this.output))), "the address");
+    this.port = Number(port);
+    this.url = `http://127.0.0.1:${port}`;
+    this.host = `127.0.0.1:${port}`;
+    this.startMs = performance.now() - this.began;
+    return this;
   }
 
   async stop(signal = "SIGTERM") {
