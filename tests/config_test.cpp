@@ -343,10 +343,10 @@ TEST(ReadToml, ReadsAKeyByItsOldNameAndSaysSo) {
 TEST(Config, WarnsOfWhatHasChangedSinceTheFileWasWritten) {
   std::string path = (std::filesystem::temp_directory_path() / "dynslam-config-XXXXXX").string();
   close(mkstemp(path.data()));
-  std::ofstream(path) << "[imu]\nbus = 4\ncalibration_file = '/var/lib/imu'\n";
+  std::ofstream(path) << "[imu]\nbus = '/dev/i2c-4'\ncalibration_file = '/var/lib/imu'\n";
   const Config config = load_config(path);
   std::filesystem::remove(path);
-  EXPECT_EQ(config.hardware.imu.bus, 4);
+  EXPECT_EQ(config.hardware.imu.bus, "/dev/i2c-4");
   EXPECT_EQ(config.warnings,
             (Lines{path + ":3: imu.calibration_file: is not read any more: the calibration is "
                           "kept in state.folder"}));

@@ -140,7 +140,9 @@ TEST_F(AccessStateTest, SetsAsideABrokenFileAndPairsAnew) {
     EXPECT_THAT(access->notice(), AllOf(HasSubstr("access.json.damaged"), Not(HasSubstr("\n")))) << bytes;
     EXPECT_TRUE(access->owner_code(kStart)) << "for who sees the console";
     EXPECT_TRUE(access->credentials(kStart).empty());
-    if (bytes.size() % 64 == 0) EXPECT_TRUE(pair_owner(*access).is_in());
+    if (bytes.size() % 64 == 0) {
+      EXPECT_TRUE(pair_owner(*access).is_in());
+    }
     fs::remove(file_);
     fs::remove(folder_ / "access.json.damaged");
   }

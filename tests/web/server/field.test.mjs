@@ -11,8 +11,11 @@ import { isDeepStrictEqual, promisify } from "node:util";
 import { binary, Robot, sleep, until } from "./robot.mjs";
 
 const cuts = Number(process.env.POWER_CUTS ?? 30);
-const folders = [];
-after(() => folders.forEach((folder) => rmSync(folder, { recursive: true, force: true })));
+const folders = [], robots = [];
+after(() => {
+  for (const robot of robots) robot.process.kill("SIGKILL");  // of a test that failed
+  for (const folder of folders) rmSync(folder, { recursive: true, force: true });
+});
 function newFolder() {
   folders.push(mkdtempSync(join(tmpdir(), "field-")));
   return folders.at(-1);
@@ -29,6 +32,13 @@ function lots(seed) {
 }
 
 const withState = (folder) => ["--set", `state.folder=${folder}`, "--set", `recorder.folder=${folder}/recordings`];
+
+const launch = (...command) => robots[robots.push(Robot.launch(...command)) - 1];
+/** A robot on this machine's own hardware, of which there is none. */
+const starting = (folder) => launch(binary, "run", "--set", "server.port=0", ...withState(folder));
+const run = (folder) => starting(folder).serves();
+const recording = (folder) => launch(binary, "sim", "--port", "0", "--set", "recorder.always=true",
+  "--set", `recorder.folder=${folder}`, "--set", "recorder.free_floor_mib=0").serves();
 
 /** Pairs with the code that is on the console, and makes a token for what follows. */
 async function own(robot) {
@@ -52,7 +62,7 @@ test(`whenever the power is cut, what was saved is there (${cuts} times)`, { tim
   const folder = newFolder(), notes = join(folder, "notes"), random = lots(9);
   const read = (name) => JSON.parse(readFileSync(join(notes, name), "utf8")).places;
   const older = () => readdirSync(notes).filter((name) => name.startsWith("notes-"));
-  let robot = await Robot.run(...withState(folder));
+  let robot = await run(folder);
   const headers = await own(robot);
   const known = new Map();
   for (let cut = 0; cut < cuts; ++cut) {
@@ -79,11 +89,11 @@ test(`whenever the power is cut, what was saved is there (${cuts} times)`, { tim
 
     // Once more, while it starts, wherever it is by then.
     if (cut % 2) {
-      const starting = Robot.launch(binary, "run", "--set", "server.port=0", ...withState(folder));
+      const next = starting(folder);
       await sleep(150 * random());
-      await starting.stop("SIGKILL");
+      await next.stop("SIGKILL");
     }
-    robot = await Robot.run(...withState(folder));
+    robot = await run(folder);
     const now = await notesOf(robot, headers);
     assert.deepEqual(now.places, [], "a new map");
     known.set(older().find((name) => isDeepStrictEqual(read(name), kept)) ?? assert.fail(older().join()), kept);
@@ -107,16 +117,16 @@ test("whenever the power is cut, a recording can be read up to the last moment",
   };
   for (let cut = 0; cut < Math.ceil(cuts / 5); ++cut) {
     const recordings = join(folder, String(cut));
-    const robot = await Robot.start("--set", "recorder.always=true", "--set", `recorder.folder=${recordings}`, "--set", "recorder.free_floor_mib=0");
+    const robot = await recording(recordings);
     await until(async () => (await robot.json("/api/v1/recordings")).recording?.seconds > 1, "a recording");
     await sleep(1500 * random());
-    const { recording } = await robot.json("/api/v1/recordings");
+    const { recording: state } = await robot.json("/api/v1/recordings");
     await robot.stop("SIGKILL");
-    const file = join(recordings, recording.file);
+    const file = join(recordings, state.file);
     const whole = await replay(file);
     assert.equal(whole.code, 2, whole.stderr);
     assert.match(whole.stderr, /what came before is mapped/);
-    assert.ok(whole.seconds > recording.seconds - 1.5, `${whole.seconds} s of ${recording.seconds} s`);
+    assert.ok(whole.seconds > state.seconds - 1.5, `${whole.seconds} s of ${state.seconds} s`);
 
     // What a disk may do to the end of a file that was not on it yet.
     const size = statSync(file).size;
@@ -129,7 +139,7 @@ test("whenever the power is cut, a recording can be read up to the last moment",
       assert.match(harmed.stderr, /what came before is mapped/);
       assert.ok(harmed.seconds > 0.8 * whole.seconds - 1, `${harmed.seconds} s of ${whole.seconds} s`);
     }
-    const next = await Robot.start("--set", "recorder.always=true", "--set", `recorder.folder=${recordings}`, "--set", "recorder.free_floor_mib=0");
+    const next = await recording(recordings);
     await until(async () => (await next.json("/api/v1/recordings")).recording?.active, "the next recording");
     await next.stop();
     assert.equal(statSync(file).size, size, "the older one is left as it is");
@@ -143,7 +153,7 @@ test("broken state is set aside, said in one line each, and the robot starts fre
   mkdirSync(join(folder, "notes/notes.json"));
   mkdirSync(join(folder, "imu"));
   writeFileSync(join(folder, "imu/bno055-calibration"), "bno055 1 00");
-  const robot = await Robot.run(...withState(folder), "--set", "imu.bus=97");
+  const robot = await run(folder);
   const headers = await own(robot);
   const { notice } = await notesOf(robot, headers);
   for (const name of ["access.json", "notes.json"]) assert.match(notice, new RegExp(`${name}.damaged`));
@@ -158,7 +168,7 @@ test("broken state is set aside, said in one line each, and the robot starts fre
 });
 
 test("where nothing can be saved the robot runs, says so, and keeps it until it ends", async () => {
-  const robot = await Robot.run(...withState("/proc/nowhere"));
+  const robot = await run("/proc/nowhere");
   const headers = await own(robot);
   await putPlace(robot, headers, "p", 1);
   const notes = await notesOf(robot, headers);
@@ -178,7 +188,7 @@ function looks(folder) {
 
 test("nothing is written while nobody asks for anything", { timeout: 60000 }, async () => {
   const folder = newFolder();
-  const robot = await Robot.run(...withState(folder));
+  const robot = await run(folder);
   await own(robot);
   await sleep(1000);
   const written = () => /^write_bytes: (\d+)$/m.exec(readFileSync(`/proc/${robot.process.pid}/io`, "utf8"))[1];
@@ -199,7 +209,7 @@ function canBeAlone() {
 }
 
 test("without a network it serves, and says where it is once there is one", { skip: !canBeAlone() && "takes root and iproute2" }, async () => {
-  const robot = Robot.launch("unshare", "--net", "sh", "-c", 'ip link set lo up; exec "$@"', "sh",
+  const robot = launch("unshare", "--net", "sh", "-c", 'ip link set lo up; exec "$@"', "sh",
     binary, "run", "--set", "server.port=0", ...withState(newFolder()));
   await robot.serves();
   await until(() => /There is no network yet/.test(robot.output), "word of the network");

@@ -27,8 +27,6 @@ export class Robot {
   static start(...args) {
     return Robot.launch(binary, "sim", ...(args.includes("--port") ? [] : ["--port", "0"]), ...args).serves();
   }
-  /** A robot on this machine's own hardware, of which there is none. */
-  static run(...args) { return Robot.launch(binary, "run", "--set", "server.port=0", ...args).serves(); }
 
   static launch(program, ...args) {
     const robot = new Robot();
