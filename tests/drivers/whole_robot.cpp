@@ -85,7 +85,10 @@ DriveState WholeRobot::drive() {
 
 nlohmann::json WholeRobot::device(const std::string& name) { return devices_json(ports())["devices"][name]; }
 
-std::string WholeRobot::trouble(const std::string& name) { return device(name)["trouble"]; }
+std::string WholeRobot::trouble(const std::string& name) {
+  const nlohmann::json shown = device(name);  // null: it did not say anything yet
+  return shown.is_object() ? shown.value("trouble", "") : "";
+}
 
 bool WholeRobot::goes() {
   const Twist twist = hardware_->world.twist();

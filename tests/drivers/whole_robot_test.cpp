@@ -174,7 +174,11 @@ TEST_F(WholeRobotTest, ComesToLifeInWhateverOrderItsDevicesAreThere) {
   expect_trouble("pins", "pins: there is no /dev/gpiochip");
   EXPECT_GE(drive().verdict.motion, Motion::kStop);
   const auto comes_alive = [&](const std::string& name) {
-    EXPECT_TRUE(comes_true(kPatience_s, [&] { return device(name)["samples"] > 0 && trouble(name).empty(); }))
+    EXPECT_TRUE(comes_true(kPatience_s,
+                           [&] {
+                             const nlohmann::json shown = device(name);
+                             return shown.is_object() && shown["samples"] > 0 && trouble(name).empty();
+                           }))
         << name << "\n"
         << state();
   };
