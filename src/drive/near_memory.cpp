@@ -61,7 +61,8 @@ void NearMemory::add_to(std::vector<ObstaclePoint>& points, const Scan& scan, co
   const auto farthest_m = sight(scan);
   const auto is_gone = [&](const Vector2& from_lidar) {
     const std::size_t sector = sector_of(from_lidar);
-    if (farthest_m[sector] > from_lidar.norm() - kSamePlace_m) return true;  // or it is seen still
+    // Where it can be seen, any return tells of it; nearer, others of its sector may be seen and it is not.
+    if (from_lidar.norm() >= blind_m_ && farthest_m[sector] > 0.0F) return true;
     for (const std::size_t beside : {kSectors - 1, kSectors, kSectors + 1})
       if (farthest_m[(sector + beside) % kSectors] > from_lidar.norm() + kBehind_m) return true;
     return false;

@@ -240,6 +240,18 @@ TEST(Clearance, RemembersNothingInsteadOfWhatItSees) {
   }
 }
 
+/// The end of a board, part of it just near enough to be seen: the rest is hidden, not gone.
+TEST(Clearance, RemembersTheHiddenPartOfWhatItSeesInPart) {
+  Clearance clearance;
+  RecentMotion motion;
+  const DrawnWorld board{{{0.15, 0.1, 0.15, 0.16}}, {}};  // at 0.18 to 0.22 m
+  for (int i = 0; i < 5; ++i) {
+    const Scan scan = scan_of(board, Time(milliseconds(100 * i)), 1200);
+    clearance.see(i < 2 ? scan : as_a3(scan), motion);
+  }
+  EXPECT_LT(clearance.free_m(Time(milliseconds(400)), kRight, motion, 0.01), 0.2);
+}
+
 TEST(Clearance, WhatIsTooNearStaysBehindAsTheRobotDrivesOn) {
   RecentMotion motion;
   Clearance clearance;
