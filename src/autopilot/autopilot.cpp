@@ -17,6 +17,8 @@ template <class... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
 constexpr double kPatienceAmongMany_s = 4.0, kPatienceForOne_s = 7.0;
+/// What changes in the map is taken in so often: the nearest of it is the follower's business.
+constexpr Duration kMapsEvery = std::chrono::milliseconds(400);
 constexpr Duration kBacksOff = std::chrono::milliseconds(2200);
 constexpr Duration kTouchesCountFor = std::chrono::minutes(1);
 
@@ -91,7 +93,10 @@ void Autopilot::observe(Time now, const AutopilotInputs& in) {
   const bool is_news = in.notes && in.notes != notes_;
   if (is_news) notes_ = in.notes;
   if (felt_.forget(now) || is_news) keep_out();
-  costmap_->update(map);
+  if (!mapped_at_ || now < *mapped_at_ || now - *mapped_at_ >= kMapsEvery) {
+    costmap_->update(map);
+    mapped_at_ = now;
+  }
   explorer_.observe(now, map, in.world->pose);
 }
 

@@ -84,6 +84,7 @@ class Autopilot {
   Navigator navigator_;
   Explorer explorer_;
   std::optional<Costmap> costmap_;  ///< from the first map on
+  std::optional<Time> mapped_at_;   ///< when it was updated last
   std::shared_ptr<const MapNotes> notes_;
   FeltObstacles felt_;
   std::optional<Time> backs_off_until_;

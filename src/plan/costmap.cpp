@@ -204,7 +204,7 @@ void Costmap::mark_posts(ChunkIndex index) {
   const CellIndex first = first_cell(index);
   const CellBox near{{first.x - berth, first.y - berth},
                      {first.x + kChunkSide - 1 + berth, first.y + kChunkSide - 1 + berth}};
-  const PostSize size{cells(kPostThick_m), cells(kPostAlone_m)};
+  const PostSize size{std::min(kMostAlone, cells(kPostThick_m)), std::min(kMostAlone, cells(kPostAlone_m))};
   for (const CellIndex post : lone_posts(occupied_, near, size)) {
     for (int y = 0; y < kChunkSide; y += kCoarseSide) {
       for (int x = 0; x < kChunkSide; x += kCoarseSide) {

@@ -14,9 +14,12 @@ struct PostSize {
   int alone = 15;  ///< and up to this there is nothing else
 };
 
+/// Of PostSize's: a row of the surroundings is one word.
+constexpr int kMostAlone = 31;
+
 /// The cells inside of `within` that belong to a thin thing that stands alone. A lidar sees no more of an
-/// office chair, a stool or a fan than its post; its foot spreads below. Linear in the occupied cells, some
-/// hundred looks each.
+/// office chair, a stool or a fan than its post; its foot spreads below. Linear in the occupied cells.
+/// REQUIRES: size.thick <= size.alone <= kMostAlone.
 std::vector<CellIndex> lone_posts(const CellBitmap& occupied, const CellBox& within, const PostSize& size);
 
 }  // namespace dynslam
