@@ -51,9 +51,9 @@ async function own(robot) {
   return { authorization: `Bearer ${(await answer.json()).token}` };
 }
 
-async function putPlace(robot, headers, name, x_m) {
+async function putPlace(robot, headers, name, x_m, y_m = 0) {
   const answer = await robot.fetch(`/api/v1/notes/places/${name}`,
-    { method: "PUT", headers: { ...headers, "content-type": "application/json" }, body: JSON.stringify({ x_m, y_m: 0 }) });
+    { method: "PUT", headers: { ...headers, "content-type": "application/json" }, body: JSON.stringify({ x_m, y_m }) });
   assert.equal(answer.status, 204);
 }
 const notesOf = async (robot, headers) => (await robot.fetch("/api/v1/notes", { headers })).json();
@@ -68,11 +68,11 @@ test(`whenever the power is cut, what was saved is there (${cuts} times)`, { tim
   for (let cut = 0; cut < cuts; ++cut) {
     let asked = 1, done = 1;
     const tokens = [];
-    await putPlace(robot, headers, "p1", 1);
+    await putPlace(robot, headers, "p1", 1, cut);
     const writing = (async () => {
       for (;;) {
         ++asked;
-        await putPlace(robot, headers, `p${asked % 40}`, asked);
+        await putPlace(robot, headers, `p${asked % 40}`, asked, cut);
         done = asked;
         if (asked % 8) continue;
         const answer = await robot.post("/api/v1/tokens", { name: `t${cut}-${asked}`, role: "viewer" }, headers);
