@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "server/web_server.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -13,8 +14,10 @@
 #include <vector>
 
 #include <civetweb.h>
+#include <dlfcn.h>
 #include <netinet/in.h>
 #include <nlohmann/json.hpp>
+#include <pthread.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -164,7 +167,7 @@ void knock(int port) {
   close(socket);
 }
 
-/// civetweb's threads have stacks of 100 KiB, too little to draw a map on; this waits for one with more.
+/// civetweb's threads have small stacks, too little to draw a map on; this waits for one with more.
 template <class Work>
 bool with_room(Work&& work) {
   try {
@@ -387,3 +390,13 @@ std::size_t WebServer::connections() const { return implementation_->book.taken(
 std::uint64_t WebServer::refused() const { return implementation_->book.refused(); }
 
 }  // namespace dynslam
+
+/// Stands before the C library's. civetweb asks for stacks of 100 KiB, of which the libraries that are linked
+/// take 60 for their thread-local variables; an error page of its own (an upgrade without a key is enough)
+/// ran over what was left, and took the whole program with it. Memory it is only once it is used.
+extern "C" int pthread_attr_setstacksize(pthread_attr_t* attributes, std::size_t size) noexcept {
+  using Set = int (*)(pthread_attr_t*, std::size_t);
+  constexpr std::size_t kLeast = std::size_t{512} * 1024;
+  static const auto set = reinterpret_cast<Set>(dlsym(RTLD_NEXT, "pthread_attr_setstacksize"));
+  return set != nullptr ? set(attributes, std::max(size, kLeast)) : ENOSYS;
+}
