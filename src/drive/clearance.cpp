@@ -79,6 +79,7 @@ Clearance::Contact Clearance::first_contact(Time now, const Twist& twist, const 
 
 double Clearance::free_m(Time now, const Twist& twist, const RecentMotion& motion,
                          double side_margin_m) const {
+  if (!end_) return 0.0;
   return first_contact(now, twist, motion, side_margin_m).time_s * body_speed_mps(twist);
 }
 

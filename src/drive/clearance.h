@@ -76,7 +76,7 @@ class Clearance {
   ClearWay way(Time now, const Twist& twist, const RecentMotion& motion) const;
 
   /// So far the body's fastest point can go along `twist` with so much room left on the sides; infinite when
-  /// nothing is in its way. REQUIRES: a scan, and finite.
+  /// nothing is in its way, nothing without a scan. REQUIRES: finite.
   double free_m(Time now, const Twist& twist, const RecentMotion& motion, double side_margin_m) const;
 
   /// From the body to the nearest thing that is ahead or beside; infinite when nothing is.

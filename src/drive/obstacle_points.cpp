@@ -18,7 +18,7 @@ constexpr std::size_t kNeighbours = 2;  ///< that are looked at on either side: 
 /// Things nearer than this are seen calmly: by the mean of the beams within so much on either side.
 constexpr float kCalm_m = 0.6F;
 constexpr float kBeside_m = 0.006F;
-constexpr std::size_t kMostBeside = 8;
+constexpr float kMostBeside = 8.0F;
 constexpr float kSameThing_m = 0.04F;
 
 float time_of(const Beam& beam) {
@@ -70,7 +70,8 @@ float calm_range_m(const Scan& scan, std::size_t i) {
   const float range = scan.beams[i].range_m;
   if (range >= kCalm_m) return range;
   const float spacing_m = range * static_cast<float>(kTwoPi) / static_cast<float>(n);
-  const auto beside = std::min({kMostBeside, static_cast<std::size_t>(kBeside_m / spacing_m), n / 2});
+  const float fit = std::min(kBeside_m / spacing_m, kMostBeside);  // all, at a range of zero
+  const std::size_t beside = std::min(static_cast<std::size_t>(fit), n / 2);
   float sum = range;
   int count = 1;
   for (std::size_t step = 1; step <= beside; ++step) {

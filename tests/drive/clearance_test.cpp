@@ -29,6 +29,7 @@ double share_in(const DrawnWorld& world, const Twist& twist) { return way_in(sca
 TEST(Clearance, NothingIsFreeWithoutAScan) {
   EXPECT_EQ(Clearance().way({}, kAhead, {}).share, 0.0);
   EXPECT_EQ(Clearance().way({}, {}, {}).share, 1.0) << "standing still is";
+  EXPECT_EQ(Clearance().free_m({}, kLeft, {}, 0.01), 0.0);
 }
 
 TEST(Clearance, AnEmptyHallIsFree) {
@@ -224,6 +225,16 @@ TEST(Clearance, RemembersWhatIsTooNearToBeSeen) {
   const DrawnWorld room{{{-3, -3, -3, 3}, {3, -3, 3, 3}, {-3, 3, 3, 3}, {-3, -3, 3, -3}}, {}};
   seen_coming.see(as_a3(scan_of(room, now + milliseconds(200))), {});
   EXPECT_EQ(seen_coming.way(now + milliseconds(200), kLeft, {}).share, 1.0) << "one sees where it was";
+}
+
+TEST(Clearance, ARangeOfZeroIsNoTroubleWhereNearReturnsCount) {
+  ClearanceConfig config;
+  config.min_range_m = 0.0;
+  Scan scan = scan_of(wall_at(3), {}, 1200);
+  for (std::size_t i = 0; i < 4; ++i) scan.beams[i].range_m = 0.0F;
+  Clearance clearance({}, config);
+  clearance.see(scan, {});
+  EXPECT_EQ(clearance.way(end_of(scan), kLeft, {}).share, 1.0) << "it is inside of the robot";
 }
 
 /// By its noise what is at 24 cm seems to be nearer at times; it is seen still, and not hidden.

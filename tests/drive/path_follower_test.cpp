@@ -407,6 +407,9 @@ TEST(PathFollower, StandsStillWithoutATaskAndAScan) {
   follower.follow(route({{0, 0}, {1, 0}}));
   EXPECT_EQ(follower.next({}, {}).state, Following::kWaiting) << "nothing was seen yet";
   EXPECT_FALSE(is_moving(follower.next({}, {}).twist));
+  follower.follow(route({{0, 0}, {-1, 0}}));
+  EXPECT_EQ(follower.next({}, {}).state, Following::kWaiting) << "nor for a turn";
+  EXPECT_FALSE(is_moving(follower.next({}, {}).twist));
   follower.halt();
   EXPECT_EQ(follower.next({}, {}).state, Following::kIdle);
   EXPECT_TRUE(follower.remaining().empty());
