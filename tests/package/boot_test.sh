@@ -8,10 +8,10 @@ set -euo pipefail
 root=$1 name=$2
 unit=dynslam.service
 
-# Its /run is the container's, as systemd-nspawn leaves traces in it.
 cp "$root/tmp/$name" "$root/tmp/newer.deb" "$root/root/"
 # The tree may have been given the name of the machine that it was made on.
 echo rover >"$root/etc/hostname"
+# Its /run is the container's, as systemd-nspawn leaves traces in it.
 unshare --mount sh -c 'mount -t tmpfs tmpfs /run && exec systemd-nspawn --quiet --directory "$1" --boot --hostname=rover \
   --private-network --register=no --keep-unit --console=pipe --link-journal=no' sh "$root" </dev/null >"$root.console" 2>&1 &
 container=$!
