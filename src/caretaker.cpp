@@ -60,12 +60,8 @@ void Caretaker::run() {
 
 /// In the log, when one begins and when it ends.
 void Caretaker::tell_troubles() {
-  const std::pair<const char*, const Latest<DeviceHealth>*> devices[] = {{"lidar", &ports_.lidar_health},
-                                                                         {"imu", &ports_.imu_health},
-                                                                         {"motors", &ports_.motors_health},
-                                                                         {"camera", &ports_.camera_health},
-                                                                         {"pins", &ports_.pins_health}};
-  for (const auto& [name, health] : devices) {
+  for (const auto& [name, health] : ports_.device_healths()) {
+    if (health == &ports_.computer_health) continue;  // told where it is looked at
     const auto now = health->get().value;
     std::string& told = things_->told[name];
     if (!now || now->trouble == told) continue;

@@ -6,6 +6,7 @@
 #include "base/config_field.h"
 #include "drivers/bno055/bno055_config.h"
 #include "drivers/camera/camera_config.h"
+#include "drivers/gpio/encoders_config.h"
 #include "drivers/gpio/gpio_config.h"
 #include "drivers/rplidar/rplidar_config.h"
 #include "drivers/thunderborg/thunderborg_config.h"
@@ -19,6 +20,7 @@ struct HardwareConfig {
   ThunderBorgConfig motors;
   CameraConfig camera;
   GpioConfig gpio;
+  EncodersConfig encoders;
 
   template <class Self, class Visit>
   static void sections(Self& self, Visit&& visit) {
@@ -27,6 +29,7 @@ struct HardwareConfig {
     visit(std::string_view("motors"), self.motors);
     visit(std::string_view("camera"), self.camera);
     visit(std::string_view("gpio"), self.gpio);
+    visit(std::string_view("encoders"), self.encoders);
   }
 };
 

@@ -28,6 +28,7 @@
 #ifdef DYNSLAM_HAS_GPIO
 #include "drivers/gpio/chips.h"
 #include "drivers/gpio/gpio_pins.h"
+#include "drivers/gpio/wheel_encoders.h"
 #endif
 
 namespace dynslam {
@@ -35,6 +36,7 @@ namespace {
 
 constexpr Duration kLidarPatience = std::chrono::seconds(8);
 constexpr Duration kImuPatience = std::chrono::seconds(3);
+[[maybe_unused]] constexpr Duration kWheelPatience = std::chrono::milliseconds(100);
 constexpr double kDegree = kTwoPi / 360.0;
 
 template <class... Values>
@@ -54,6 +56,7 @@ class Prober {
   void motors(bool spins, std::istream& in);
   void camera();
   void pins();
+  void wheels();
   void computer();
   int silent() const { return silent_; }
 
@@ -204,6 +207,20 @@ void Prober::pins() {
 #endif
 }
 
+void Prober::wheels() {
+  if (!config_.hardware.encoders.has_encoders()) return;  // few robots have them
+#ifdef DYNSLAM_HAS_GPIO
+  ask("wheels", [&] {
+    WheelEncoders encoders(config_.hardware.encoders, clock_);
+    encoders.next(clock_.now() + kWheelPatience);
+    say("wheels", encoders.about());
+  });
+#else
+  say("wheels", "this program was built without their driver");
+  ++silent_;
+#endif
+}
+
 void Prober::computer() {
   const PiWatch watch;
   const PiState state = watch.read();
@@ -221,6 +238,7 @@ int run_probe(const ProbeOptions& options, const Config& config, std::istream& i
   prober.motors(options.spin_motors, in);
   prober.camera();
   prober.pins();
+  prober.wheels();
   prober.computer();
   return prober.silent() == 0 ? 0 : 1;
 }

@@ -19,6 +19,7 @@
 #ifdef DYNSLAM_HAS_GPIO
 #include "drivers/gpio/gpio_pins.h"
 #include "drivers/gpio/output_pin.h"
+#include "drivers/gpio/wheel_encoders.h"
 #endif
 
 namespace dynslam {
@@ -46,6 +47,11 @@ class NoCamera : public Camera {
 class NoPins : public Pins {
  public:
   PinState read() override { not_built_in("pins"); }
+};
+
+class NoWheels : public Wheels {
+ public:
+  std::optional<OdometrySample> next(Time) override { not_built_in("wheels"); }
 };
 
 [[maybe_unused]] constexpr const char* kProfileFile = "bno055-calibration";
@@ -80,6 +86,8 @@ class SwitchedLidar : public Lidar {
     motor_->set(true);
     return lidar_->next(until);
   }
+  std::string about() const override { return lidar_->about(); }
+  Counters counters() const override { return lidar_->counters(); }
 
  private:
   std::unique_ptr<OutputPin> motor_;
@@ -127,6 +135,13 @@ Devices make_real_devices(const Config& config, const Clock& clock) {
     devices.pins = std::make_unique<GpioPins>(hardware.gpio, clock);
 #else
     devices.pins = std::make_unique<NoPins>();
+#endif
+  }
+  if (hardware.encoders.has_encoders()) {
+#ifdef DYNSLAM_HAS_GPIO
+    devices.wheels = std::make_unique<WheelEncoders>(hardware.encoders, clock);
+#else
+    devices.wheels = std::make_unique<NoWheels>();
 #endif
   }
   return devices;

@@ -218,6 +218,16 @@ void Bno055::give_up(const DeviceError& why) {
   throw why;
 }
 
+std::string Bno055::about() const {
+  const Bno055Report now = report();
+  if (!now.running) return {};
+  const auto& c = now.status.calibration;
+  std::string text = "BNO055 on " + config_.bus + ", calibrated (0 to 3): gyroscope " +
+                     std::to_string(c.gyroscope) + ", accelerometer " + std::to_string(c.accelerometer);
+  if (config_.use_compass) text += ", compass " + std::to_string(c.magnetometer);
+  return text;
+}
+
 Bno055Report Bno055::report() const {
   const std::lock_guard lock(report_mutex_);
   return report_;

@@ -39,11 +39,13 @@ class Bno055 : public Imu {
   std::optional<ImuSample> next(Time until) override;
 
   /// Any thread.
+  std::string about() const override;
+  /// Any thread.
   Bno055Report report() const;
   /// Besides those of I2cDevice: "all-zero", "all-ones", "length", "rate", "jump", "late", "skipped",
   /// "status", "frozen", "resets", "readback", "odd-identity", "reset-unheard", "profile-changed",
   /// "profile-refused", "profile-bad", "profile-saved", "profile-unsaved". Any thread.
-  Counters counters() const { return chip_.counters(); }
+  Counters counters() const override { return chip_.counters(); }
 
  private:
   void load_profile();

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "drivers/gpio/chips.h"
@@ -20,15 +19,6 @@ std::array<LineUse, 4> uses_of(const EncodersConfig& config) {
 
 }  // namespace
 
-std::optional<std::string> EncodersConfig::problem() const {
-  const std::array<int, 4> lines = {left_a_line, left_b_line, right_a_line, right_b_line};
-  const auto given = std::count_if(lines.begin(), lines.end(), [](int line) { return line >= 0; });
-  if (given == 0) return std::nullopt;
-  if (given < 4) return "encoders: all four lines must be given, or none";
-  if (std::set<int>(lines.begin(), lines.end()).size() < 4) return "encoders: a line is used twice";
-  return std::nullopt;
-}
-
 void WheelOdometry::roll(double left_m, double right_m) {
   const double way_m = 0.5 * (left_m + right_m);
   const double turn = (right_m - left_m) / track_m_;
@@ -40,7 +30,7 @@ void WheelOdometry::roll(double left_m, double right_m) {
 
 WheelEncoders::WheelEncoders(const EncodersConfig& config, const Clock& clock)
     : WheelEncoders(config, clock, [chip = config.chip](std::span<const LineUse> uses) {
-        return open_inputs(find_chip(chip, "encoders"), uses, "encoders");
+        return open_inputs(find_chip(chip, "wheels"), uses, "wheels");
       }) {}
 
 WheelEncoders::WheelEncoders(const EncodersConfig& config, const Clock& clock, OpenInputs open)
@@ -52,6 +42,8 @@ std::optional<OdometrySample> WheelEncoders::next(Time until) {
     const Time end = std::min(due_, until);
     do count(clock_.steady(end));
     while (clock_.now() < end);
+    std::array<bool, 4> levels{};
+    lines_->read(levels);  // only to hear of it when the chip went: edges do not tell
   } catch (const DeviceError&) {
     lines_.reset();
     throw;
@@ -84,6 +76,18 @@ void WheelEncoders::count(Clock::SteadyTime until) {
 double WheelEncoders::rolled_m(Wheel& wheel, bool reversed) const {
   const std::int64_t steps = wheel.counter.count() - std::exchange(wheel.told, wheel.counter.count());
   return (reversed ? -1.0 : 1.0) * static_cast<double>(steps) * config_.metres_per_step;
+}
+
+std::string WheelEncoders::about() const {
+  return "encoders on lines " + std::to_string(config_.left_a_line) + " and " +
+         std::to_string(config_.left_b_line) + " (left), " + std::to_string(config_.right_a_line) + " and " +
+         std::to_string(config_.right_b_line) + " (right)";
+}
+
+Counters WheelEncoders::counters() const {
+  Counters all;
+  if (const auto illegal = illegal_steps(); illegal > 0) all.add("illegal-steps", illegal);
+  return all;
 }
 
 std::uint64_t WheelEncoders::illegal_steps() const {

@@ -133,4 +133,25 @@ RplidarReport Rplidar::report() const {
   return report;
 }
 
+std::string Rplidar::about() const {
+  const Portrait& device = start_.portrait();
+  if (!device.info) return {};
+  std::string text = device.info->model_name() + ", firmware " + device.info->firmware() + ", " + device.port;
+  if (device.mode) text += ", mode " + device.mode->name;
+  return text;
+}
+
+Counters Rplidar::counters() const {
+  const RplidarReport now = report();
+  Counters all;
+  const auto add = [&all](const char* name, std::uint64_t n) {
+    if (n > 0) all.add(name, n);
+  };
+  add("bad-checksums", now.line.bad_checksums);
+  add("skipped-bytes", now.line.skipped_bytes);
+  add("odd-steps", now.line.odd_steps);
+  add("holed-turns", now.holed_turns);
+  return all;
+}
+
 }  // namespace dynslam

@@ -29,6 +29,9 @@ class Rplidar : public Lidar {
   ~Rplidar() override;
 
   std::optional<Scan> next(Time until) override;
+  std::string about() const override;
+  /// "bad-checksums", "skipped-bytes", "odd-steps", "holed-turns".
+  Counters counters() const override;
   /// Asks it for all that the report says of the device, without spinning its motor where that has a choice.
   /// False: not yet by `until`; to be called again. Throws DeviceError.
   bool identify(Time until);

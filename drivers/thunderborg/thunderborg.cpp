@@ -47,6 +47,10 @@ ThunderBorg::~ThunderBorg() {
   }
 }
 
+std::string ThunderBorg::about() const {
+  return trusted_ ? "ThunderBorg on " + config_.bus + ", its failsafe on" : std::string();
+}
+
 template <class Act>
 auto ThunderBorg::trusting(Act&& act) {
   if (!trusted_ && clock_.now() < ask_again_) throw DeviceError(trouble_);

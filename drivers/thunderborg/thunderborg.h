@@ -44,6 +44,7 @@ class ThunderBorg : public Motors {
   /// Green while the robot may go, yellow when it is slowed down or held, red when it stands, and purple when
   /// a person has to clear an e-stop.
   void show(Motion motion) override;
+  std::string about() const override;
 
   /// What both lights show from the next read() on. Any thread.
   void set_light(const LightColor& color);
@@ -51,7 +52,7 @@ class ThunderBorg : public Motors {
   ThunderBorgReport report();
   /// Besides those of I2cDevice: "wrong-answer", "readback", "failsafe-off", "distrusted",
   /// "not-switched-off". Any thread.
-  Counters counters() const { return board_.counters(); }
+  Counters counters() const override { return board_.counters(); }
 
  private:
   using Command = thunderborg::Command;

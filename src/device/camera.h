@@ -4,14 +4,14 @@
 #include <optional>
 
 #include "base/jpeg_frame.h"
+#include "device/device.h"
 
 namespace dynslam {
 
 /// A camera that looks ahead. Used by one thread, and only while somebody watches: between calls it may
 /// sleep.
-class Camera {
+class Camera : public Device {
  public:
-  virtual ~Camera() = default;
   /// Waits for the next picture, until the robot's clock says `until` at most; nothing when none came. Throws
   /// DeviceError.
   virtual std::optional<JpegFrame> next(Time until) = 0;

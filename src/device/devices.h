@@ -8,6 +8,7 @@
 #include "device/lidar.h"
 #include "device/motors.h"
 #include "device/pins.h"
+#include "device/wheels.h"
 
 namespace dynslam {
 
@@ -18,6 +19,7 @@ struct Devices {
   std::unique_ptr<Motors> motors;
   std::unique_ptr<Camera> camera;
   std::unique_ptr<Pins> pins;
+  std::unique_ptr<Wheels> wheels;  ///< what counts their turns
 };
 
 }  // namespace dynslam

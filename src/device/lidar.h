@@ -4,13 +4,13 @@
 #include <optional>
 
 #include "base/scan.h"
+#include "device/device.h"
 
 namespace dynslam {
 
 /// A spinning lidar. Each scan is handed out once, oldest first; used by one thread.
-class Lidar {
+class Lidar : public Device {
  public:
-  virtual ~Lidar() = default;
   /// Waits for a whole turn, until the robot's clock says `until` at most; nothing when none came. Throws
   /// DeviceError.
   virtual std::optional<Scan> next(Time until) = 0;

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "base/pin_state.h"
+#include "device/device.h"
 
 namespace dynslam {
 
 /// Buttons and switches. Used by one thread.
-class Pins {
+class Pins : public Device {
  public:
-  virtual ~Pins() = default;
   /// Throws DeviceError.
   virtual PinState read() = 0;
 };

@@ -110,7 +110,7 @@ std::optional<Record> McapRecording::decode(const McapChannel& channel, const Mc
     case McapKind::kImu:
       return decode_imu_sample(message, channel.ours);
     case McapKind::kOdometry:
-      return decode_odometry_sample(message);
+      return decode_odometry_sample(message, channel.ours);
     case McapKind::kTransforms:
       if (!decode_transforms(message.data, tree_)) counters_.add("tf.bad");
       return std::nullopt;
@@ -152,13 +152,13 @@ std::optional<Record> McapRecording::decode_imu_sample(const McapMessage& messag
   return ImuSample{*stamp, world_q_robot};
 }
 
-std::optional<Record> McapRecording::decode_odometry_sample(const McapMessage& message) {
+std::optional<Record> McapRecording::decode_odometry_sample(const McapMessage& message, bool ours) {
   const std::optional<RosMessage<Pose2>> odometry = decode_odometry(message.data);
   if (!odometry) {
     counters_.add("odometry.bad");
     return std::nullopt;
   }
-  const std::optional<Time> stamp = stamp_of(odometry->header.stamp, message, false);
+  const std::optional<Time> stamp = stamp_of(odometry->header.stamp, message, ours);
   if (!stamp) return std::nullopt;
   return OdometrySample{*stamp, odometry->value};
 }

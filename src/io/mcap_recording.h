@@ -37,7 +37,7 @@ class McapRecording final : public Recording {
   std::optional<Record> decode(const McapChannel& channel, const McapMessage& message);
   std::optional<Record> decode_scan(const McapMessage& message, bool ours);
   std::optional<Record> decode_imu_sample(const McapMessage& message, bool ours);
-  std::optional<Record> decode_odometry_sample(const McapMessage& message);
+  std::optional<Record> decode_odometry_sample(const McapMessage& message, bool ours);
   std::optional<Time> stamp_of(Time stamp, const McapMessage& message, bool ours);
   LidarMount mount_of(std::string_view frame);
   double height_of(std::string_view frame) const;

@@ -99,12 +99,12 @@ std::string encode_transforms(std::span<const RosTransform> transforms) {
   return cdr.bytes();
 }
 
-std::string encode_odometry(Time stamp, const Pose2& odom_T_robot, const Eigen::Matrix3d& covariance,
-                            const Twist& twist) {
+std::string encode_odometry(std::string_view frame, Time stamp, const Pose2& frame_T_robot,
+                            const Eigen::Matrix3d& covariance, const Twist& twist) {
   CdrWriter cdr;
-  put_header(cdr, stamp, "odom");
+  put_header(cdr, stamp, frame);
   cdr.text("base_link");
-  put_pose(cdr, odom_T_robot);
+  put_pose(cdr, frame_T_robot);
   put_covariance(cdr, covariance);
   put_twist(cdr, twist);
   put_covariance(cdr, Eigen::Matrix3d::Zero());

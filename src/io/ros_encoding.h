@@ -40,9 +40,9 @@ struct RosTransform {
 /// tf2_msgs/TFMessage.
 std::string encode_transforms(std::span<const RosTransform> transforms);
 
-/// nav_msgs/Odometry of `base_link` in `odom`. `covariance` as in PoseEstimate.
-std::string encode_odometry(Time stamp, const Pose2& odom_T_robot, const Eigen::Matrix3d& covariance,
-                            const Twist& twist);
+/// nav_msgs/Odometry of `base_link` in `frame`. `covariance` as in PoseEstimate.
+std::string encode_odometry(std::string_view frame, Time stamp, const Pose2& frame_T_robot,
+                            const Eigen::Matrix3d& covariance, const Twist& twist);
 
 /// geometry_msgs/TwistStamped.
 std::string encode_twist(Time stamp, const Twist& twist);

@@ -17,6 +17,15 @@ std::uint64_t nanoseconds(Time t) {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(0, t.time_since_epoch().count()));
 }
 
+/// Zero across a longer pause.
+Twist speed_between(const std::optional<OdometrySample>& last, const OdometrySample& now) {
+  constexpr double kLongest_s = 0.5;
+  const double passed_s = last ? to_seconds(now.stamp - last->stamp) : 0.0;
+  if (passed_s <= 0.0 || passed_s > kLongest_s) return {};
+  const Pose2 step = last->odom_T_robot.inverse() * now.odom_T_robot;
+  return {step.x / passed_s, wrap_angle(step.yaw) / passed_s};
+}
+
 bool same(const LidarMount& a, const LidarMount& b) {
   return a.robot_T_lidar == b.robot_T_lidar && a.upside_down == b.upside_down && a.height_m == b.height_m;
 }
@@ -38,7 +47,8 @@ McapTopic RosWriter::describe(Topic topic) {
                                                {"/map", "nav_msgs", "OccupancyGrid"},
                                                {"/camera/compressed", "sensor_msgs", "CompressedImage"},
                                                {"/diagnostics", "diagnostic_msgs", "DiagnosticArray"},
-                                               {"/rosout", "rcl_interfaces", "Log"}}};
+                                               {"/rosout", "rcl_interfaces", "Log"},
+                                               {"/wheel_odom", "nav_msgs", "Odometry"}}};
   const Row& row = kRows[topic];
   const std::string package(row.package), type(row.type);
   McapTopic out{std::string(row.topic),
@@ -79,18 +89,17 @@ void RosWriter::write(Time now, const PoseFix& fix) {
   const Pose2 odom_T_robot = fix.map_T_odom.inverse() * fix.pose.map_T_robot;
   const RosTransform all[] = {{stamp, "map", "odom", fix.map_T_odom}, {stamp, "odom", kBase, odom_T_robot}};
   put(kTransforms, now, stamp, encode_transforms(all));
-  const Twist speed = speed_of(stamp, odom_T_robot);
-  put(kOdometry, now, stamp, encode_odometry(stamp, odom_T_robot, fix.pose.covariance, speed));
+  const Twist speed = speed_between(last_place_, {stamp, odom_T_robot});
+  last_place_ = {stamp, odom_T_robot};
+  put(kOdometry, now, stamp, encode_odometry("odom", stamp, odom_T_robot, fix.pose.covariance, speed));
 }
 
-/// Between the last two poses; zero across a longer pause.
-Twist RosWriter::speed_of(Time stamp, const Pose2& odom_T_robot) {
-  constexpr double kLongest_s = 0.5;
-  const auto last = std::exchange(last_place_, Place{stamp, odom_T_robot});
-  const double passed_s = last ? to_seconds(stamp - last->stamp) : 0.0;
-  if (passed_s <= 0.0 || passed_s > kLongest_s) return {};
-  const Pose2 step = last->odom_T_robot.inverse() * odom_T_robot;
-  return {step.x / passed_s, wrap_angle(step.yaw) / passed_s};
+/// How sure wheels are nobody knows: they slip. Their frame is their own, and no part of the tree.
+void RosWriter::write(Time now, const OdometrySample& wheels) {
+  const Twist speed = speed_between(last_wheels_, wheels);
+  last_wheels_ = wheels;
+  put(kWheels, now, wheels.stamp,
+      encode_odometry("wheels", wheels.stamp, wheels.odom_T_robot, Eigen::Matrix3d::Zero(), speed));
 }
 
 void RosWriter::write(Time now, const DriveCommand& command) {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/drive_command.h"
+#include "base/odometry.h"
 #include "base/pose_estimate.h"
 #include "io/mcap_writer.h"
 #include "io/ros_encoding.h"
@@ -31,6 +32,7 @@ class RosWriter {
 
   void write(Time now, const Scan& scan);  ///< also where the lidar sits, when that is news
   void write(Time now, const ImuSample& sample);
+  void write(Time now, const OdometrySample& wheels);
   void write(Time now, const PoseFix& fix);
   void write(Time now, const DriveCommand& command);
   void write(Time now, const JpegFrame& frame);
@@ -54,21 +56,16 @@ class RosWriter {
     kPicture,
     kDiagnostics,
     kLog,
+    kWheels,
     kTopics
   };
   static McapTopic describe(Topic topic);
   void put(Topic topic, Time now, Time stamp, std::string_view message);
   void tell_mount(Time now, const Scan& scan);
-  Twist speed_of(Time stamp, const Pose2& odom_T_robot);
-
-  struct Place {
-    Time stamp;
-    Pose2 odom_T_robot;
-  };
   McapWriter& mcap_;
   std::array<std::uint16_t, kTopics> channels_{};  ///< 0: not yet there
   std::optional<LidarMount> told_mount_;
-  std::optional<Place> last_place_;
+  std::optional<OdometrySample> last_place_, last_wheels_;
 };
 
 }  // namespace dynslam

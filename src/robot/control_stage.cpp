@@ -10,7 +10,6 @@ namespace {
 
 /// Reading the board takes as long as driving it; brownouts last some tenths of a second.
 constexpr Duration kReadMotorsEvery = std::chrono::milliseconds(100);
-constexpr Duration kShowHealthEvery = std::chrono::milliseconds(500);
 constexpr Duration kBumpersCountFor = std::chrono::seconds(1);
 constexpr Duration kShowCountersEvery = std::chrono::seconds(1);
 
@@ -30,9 +29,9 @@ ControlStage::ControlStage(Motors* motors, Pins* pins, const DriveConfig& config
       imu_(imu),
       control_(config),
       due_(clock.now()),
-      motors_due_(due_) {
-  motors_health_.present = motors != nullptr;
-  pins_health_.present = pins != nullptr;
+      motors_due_(due_),
+      motors_health_(motors, ports.motors_health),
+      pins_health_(pins, ports.pins_health) {
   inputs_.has_estop = pins != nullptr;
   inputs_.has_imu = has_imu;
 }
@@ -90,9 +89,9 @@ void ControlStage::read_motors(Time now) {
   motors_due_ = now + kReadMotorsEvery;
   try {
     inputs_.motors = {clock_.now(), motors_->read()};
-    note_answer(motors_health_, ports_.motors_health, now);
+    motors_health_.answered(now);
   } catch (const DeviceError& e) {
-    note_trouble(motors_health_, ports_.motors_health, e.what());
+    motors_health_.failed(e.what());
   }
 }
 
@@ -100,9 +99,9 @@ void ControlStage::read_pins(Time now) {
   if (!pins_) return;
   try {
     inputs_.pins = {clock_.now(), pins_->read()};
-    note_answer(pins_health_, ports_.pins_health, now);
+    pins_health_.answered(now);
   } catch (const DeviceError& e) {
-    note_trouble(pins_health_, ports_.pins_health, e.what());
+    pins_health_.failed(e.what());
   }
 }
 
@@ -112,26 +111,9 @@ bool ControlStage::drive(const WheelPower& power) {
     motors_->drive(power);
     return true;
   } catch (const DeviceError& e) {
-    note_trouble(motors_health_, ports_.motors_health, e.what());
+    motors_health_.failed(e.what());
     return false;
   }
-}
-
-void ControlStage::note_trouble(DeviceHealth& health, Latest<DeviceHealth>& shown,
-                                const std::string& trouble) {
-  ++health.errors;
-  health.trouble = trouble;
-  shown.put(health);
-}
-
-void ControlStage::note_answer(DeviceHealth& health, Latest<DeviceHealth>& shown, Time now) {
-  ++health.samples;
-  const bool show =
-      health.samples == 1 || !health.trouble.empty() || now >= health.last_sample + kShowHealthEvery;
-  if (!show) return;
-  health.last_sample = now;
-  health.trouble.clear();
-  shown.put(health);
 }
 
 }  // namespace dynslam

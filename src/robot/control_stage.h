@@ -36,8 +36,6 @@ class ControlStage {
   /// Whether the board took it; it always does where there is none.
   bool drive(const WheelPower& power);
   DriveState drive_state(Time now, const DriveOutput& out);
-  void note_trouble(DeviceHealth& health, Latest<DeviceHealth>& shown, const std::string& trouble);
-  void note_answer(DeviceHealth& health, Latest<DeviceHealth>& shown, Time now);
 
   Motors* motors_;
   Pins* pins_;
@@ -50,7 +48,7 @@ class ControlStage {
   std::optional<DriveCommand> answered_;
   Time answered_at_;
   Time due_, motors_due_, counters_due_;
-  DeviceHealth motors_health_, pins_health_;
+  HealthKeeper motors_health_, pins_health_;
 };
 
 }  // namespace dynslam

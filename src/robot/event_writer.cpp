@@ -29,6 +29,8 @@ DiagnosticStatus status_of(const std::string& name, const DeviceHealth& health, 
     status.message = health.trouble;
   }
   status.values = {{"samples", std::to_string(health.samples)}, {"errors", std::to_string(health.errors)}};
+  if (!health.about.empty()) status.values.emplace_back("about", health.about);
+  for (const auto& [what, n] : health.counters) status.values.emplace_back(what, std::to_string(n));
   return status;
 }
 
@@ -61,6 +63,7 @@ void EventWriter::write(const RecorderEvent& event) {
   const Time at = event.time;
   if (const auto* scan = std::get_if<std::shared_ptr<const Scan>>(&event.what)) ros_.write(at, **scan);
   if (const auto* imu = std::get_if<ImuSample>(&event.what)) ros_.write(at, *imu);
+  if (const auto* wheels = std::get_if<OdometrySample>(&event.what)) ros_.write(at, *wheels);
   if (const auto* command = std::get_if<DriveCommand>(&event.what)) ros_.write(at, *command);
   if (const auto* picture = std::get_if<std::shared_ptr<const JpegFrame>>(&event.what))
     ros_.write(at, **picture);
@@ -105,13 +108,8 @@ void EventWriter::look(Time now) {
 }
 
 void EventWriter::write_health(Time now) {
-  const std::pair<const char*, const Latest<DeviceHealth>*> devices[] = {{"lidar", &ports_.lidar_health},
-                                                                         {"imu", &ports_.imu_health},
-                                                                         {"motors", &ports_.motors_health},
-                                                                         {"camera", &ports_.camera_health},
-                                                                         {"pins", &ports_.pins_health}};
   std::vector<DiagnosticStatus> all;
-  for (const auto& [name, health] : devices) {
+  for (const auto& [name, health] : ports_.device_healths()) {
     const auto now_known = health->get().value;
     if (now_known && now_known->present) all.push_back(status_of(name, *now_known, now));
     const bool rests = health == &ports_.camera_health && ports_.watchers == 0;

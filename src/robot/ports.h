@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "autopilot/order.h"
 #include "autopilot/status.h"
@@ -24,18 +26,10 @@
 #include "pipe/bounded_queue.h"
 #include "pipe/latest.h"
 #include "pipe/recent.h"
+#include "robot/device_health.h"
 #include "robot/graph_view.h"
 
 namespace dynslam {
-
-/// How a device is doing, as shown to people.
-struct DeviceHealth {
-  bool present = false;
-  std::uint64_t samples = 0;
-  std::uint64_t errors = 0;
-  Time last_sample;     ///< stamp of the newest
-  std::string trouble;  ///< what it said last, empty while it answers
-};
 
 /// What is driven and why, after a tick of the control.
 struct DriveState {
@@ -96,8 +90,22 @@ struct Ports {
   Latest<Counters> slam_counters, graph_counters, drive_counters;  ///< about once a second
   Latest<RecordingState> recording;
   Latest<AutopilotStatus> autopilot;
-  Latest<DeviceHealth> lidar_health, imu_health, motors_health, camera_health, pins_health;
+  Latest<DeviceHealth> lidar_health, imu_health, motors_health, camera_health, pins_health, wheels_health;
   Latest<DeviceHealth> computer_health;  ///< of the computer itself: its supply, its heat
+
+  using NamedHealth = std::pair<const char*, const Latest<DeviceHealth>*>;
+  std::array<NamedHealth, 7> device_healths() const {
+    return {{{"lidar", &lidar_health},
+             {"imu", &imu_health},
+             {"motors", &motors_health},
+             {"camera", &camera_health},
+             {"pins", &pins_health},
+             {"wheels", &wheels_health},
+             {"computer", &computer_health}}};
+  }
+
+  /// What stages and devices counted; a device's names begin with its own.
+  Counters counters() const;
 };
 
 }  // namespace dynslam

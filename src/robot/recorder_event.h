@@ -7,6 +7,7 @@
 #include "base/drive_command.h"
 #include "base/imu_sample.h"
 #include "base/jpeg_frame.h"
+#include "base/odometry.h"
 #include "base/scan.h"
 #include "io/ros_writer.h"
 #include "robot/ports.h"
@@ -16,7 +17,7 @@ namespace dynslam {
 /// One thing that a recording holds, and when the robot heard of it.
 struct RecorderEvent {
   Time time;
-  std::variant<std::shared_ptr<const Scan>, ImuSample, PoseFix, DriveCommand,
+  std::variant<std::shared_ptr<const Scan>, ImuSample, OdometrySample, PoseFix, DriveCommand,
                std::shared_ptr<const DriveState>, std::shared_ptr<const JpegFrame>>
       what;
 };

@@ -36,8 +36,7 @@ Robot::Robot(Devices devices, const RobotConfig& config, const Clock& clock, Sta
       recorder_.add(shared);
       slam_stage_.add(shared);
     };
-    lidar_.emplace([this](Time until) { return devices_.lidar->next(until); }, take, clock,
-                   ports_.lidar_health);
+    lidar_.emplace(*devices_.lidar, take, clock, ports_.lidar_health);
   }
   if (devices_.imu) {
     const auto take = [this](const ImuSample& sample) {
@@ -45,7 +44,14 @@ Robot::Robot(Devices devices, const RobotConfig& config, const Clock& clock, Sta
       recorder_.add(sample);
       slam_stage_.add(sample);
     };
-    imu_.emplace([this](Time until) { return devices_.imu->next(until); }, take, clock, ports_.imu_health);
+    imu_.emplace(*devices_.imu, take, clock, ports_.imu_health);
+  }
+  if (devices_.wheels) {
+    const auto take = [this](const OdometrySample& sample) {
+      recorder_.add(sample);
+      slam_stage_.add(sample);
+    };
+    wheels_.emplace(*devices_.wheels, take, clock, ports_.wheels_health);
   }
   if (devices_.camera) {
     const auto take = [this](JpegFrame frame) {
@@ -53,8 +59,7 @@ Robot::Robot(Devices devices, const RobotConfig& config, const Clock& clock, Sta
       ports_.video.put(shared);
       if (recorder_.wants_pictures()) recorder_.add(shared);
     };
-    camera_.emplace([this](Time until) { return devices_.camera->next(until); }, take, clock,
-                    ports_.camera_health);
+    camera_.emplace(*devices_.camera, take, clock, ports_.camera_health);
   }
 }
 
@@ -69,6 +74,7 @@ void Robot::start() {
   start_thread("control", [this] { run_control(); });
   if (lidar_) start_thread("lidar", [this] { lidar_->turn(stop_); });
   if (imu_) start_thread("imu", [this] { imu_->turn(stop_); });
+  if (wheels_) start_thread("wheels", [this] { wheels_->turn(stop_); });
   if (camera_) start_thread("camera", [this] { poll_camera(); });
   start_thread("slam", [this] { slam_stage_.turn(); });
   start_thread("graph", [this] { slam_stage_.graph_turn(); });
@@ -164,6 +170,10 @@ void Robot::step() {
   enter(kSensing);
   if (imu_) {
     while (imu_->turn(stop_)) {
+    }
+  }
+  if (wheels_) {
+    while (wheels_->turn(stop_)) {
     }
   }
   if (lidar_) {

@@ -100,9 +100,10 @@ class Robot {
   ControlStage control_;
   RecorderStage recorder_;
   std::uint64_t command_recorded_ = 0;  ///< version of the port; the thread of the control
-  std::optional<SensorStage<Scan>> lidar_;
-  std::optional<SensorStage<ImuSample>> imu_;
-  std::optional<SensorStage<JpegFrame>> camera_;
+  std::optional<SensorStage<Lidar>> lidar_;
+  std::optional<SensorStage<Imu>> imu_;
+  std::optional<SensorStage<Wheels>> wheels_;
+  std::optional<SensorStage<Camera>> camera_;
   struct Thread {
     std::thread thread;
     std::future<void> ended;

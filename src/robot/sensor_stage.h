@@ -6,24 +6,23 @@
 #include <utility>
 
 #include "device/device_error.h"
-#include "robot/ports.h"
+#include "pipe/clock.h"
+#include "robot/device_health.h"
 #include "robot/stop_signal.h"
 
 namespace dynslam {
 
 /// Reads one sensor and hands on what it says. A sensor that fails is asked again after a pause, for ever;
 /// meanwhile its health says what is wrong. One thread.
-template <class Sample>
+template <class Sensor>
 class SensorStage {
  public:
-  using Read = std::function<std::optional<Sample>(Time until)>;
+  using Sample = typename decltype(std::declval<Sensor&>().next({}))::value_type;
   using Take = std::function<void(Sample)>;
 
-  SensorStage(Read read, Take take, const Clock& clock, Latest<DeviceHealth>& health)
-      : read_(std::move(read)), take_(std::move(take)), clock_(clock), shown_(health) {
-    health_.present = true;
-    shown_.put(health_);
-  }
+  /// The sensor, the clock and `health` must outlive it.
+  SensorStage(Sensor& sensor, Take take, const Clock& clock, Latest<DeviceHealth>& health)
+      : sensor_(sensor), take_(std::move(take)), clock_(clock), health_(&sensor, health) {}
 
   /// Waits a while for a sample. Returns whether there was one.
   bool turn(const StopSignal& stop) {
@@ -33,15 +32,13 @@ class SensorStage {
       return false;
     }
     try {
-      std::optional<Sample> sample = read_(now + kPatience);
+      std::optional<Sample> sample = sensor_.next(now + kPatience);
       if (!sample) return false;
-      note(sample->stamp);
+      health_.answered(sample->stamp);
       take_(std::move(*sample));
       return true;
     } catch (const DeviceError& e) {
-      ++health_.errors;
-      health_.trouble = e.what();
-      shown_.put(health_);
+      health_.failed(e.what());
       ask_again_ = clock_.now() + kPause;
       return false;
     }
@@ -50,23 +47,12 @@ class SensorStage {
  private:
   static constexpr Duration kPatience = std::chrono::milliseconds(200);
   static constexpr Duration kPause = std::chrono::milliseconds(500);
-  static constexpr Duration kShownEvery = std::chrono::milliseconds(100);
 
-  void note(Time stamp) {
-    ++health_.samples;
-    health_.last_sample = stamp;
-    if (health_.trouble.empty() && stamp < shown_at_ + kShownEvery && stamp > shown_at_) return;
-    health_.trouble.clear();
-    shown_at_ = stamp;
-    shown_.put(health_);
-  }
-
-  Read read_;
+  Sensor& sensor_;
   Take take_;
   const Clock& clock_;
-  Latest<DeviceHealth>& shown_;
-  DeviceHealth health_;
-  Time shown_at_, ask_again_;
+  HealthKeeper health_;
+  Time ask_again_;
 };
 
 }  // namespace dynslam

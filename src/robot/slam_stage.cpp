@@ -15,7 +15,7 @@ constexpr Duration kGraphPatience = std::chrono::milliseconds(200);
 
 void SlamStage::turn() {
   const auto scan = scans_.pop(clock_.steady(clock_.now() + kMoment));
-  while (auto sample = imu_.try_pop()) slam_.add(*sample);
+  take_motion();
   if (scan) slam_.add(Scan(**scan));
   while (auto correction = corrections_.try_pop()) slam_.correct(std::move(*correction));
   slam_.trust_range(ports_.trusted_range_m);
@@ -25,6 +25,11 @@ void SlamStage::turn() {
     while (auto job = slam_.take_job()) jobs_.push(std::move(*job));
     show(*result);
   }
+}
+
+void SlamStage::take_motion() {
+  while (const auto sample = imu_.try_pop()) slam_.add(*sample);
+  while (const auto sample = odometry_.try_pop()) slam_.add(*sample);
 }
 
 void SlamStage::graph_turn() {
@@ -42,7 +47,7 @@ void SlamStage::close() {
 }
 
 void SlamStage::finish() {
-  while (auto sample = imu_.try_pop()) slam_.add(*sample);
+  take_motion();
   while (const auto scan = scans_.try_pop()) slam_.add(Scan(**scan));
   while (auto correction = corrections_.try_pop()) slam_.correct(std::move(*correction));
   while (const auto job = jobs_.try_pop()) slam_.correct(slam_.work_off(*job));
@@ -61,6 +66,7 @@ Counters SlamStage::queue_counters() const {
   };
   add("queue.scans_dropped", scans_.dropped());
   add("queue.imu_dropped", imu_.dropped());
+  add("queue.odometry_dropped", odometry_.dropped());
   add("queue.local_maps_dropped", jobs_.dropped());
   return all;
 }

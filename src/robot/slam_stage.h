@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/imu_sample.h"
+#include "base/odometry.h"
 #include "pipe/bounded_queue.h"
 #include "robot/ports.h"
 #include "slam/slam.h"
@@ -25,6 +26,7 @@ class SlamStage {
   }
 
   void add(ImuSample sample) { imu_.push(std::move(sample)); }
+  void add(const OdometrySample& sample) { odometry_.push(sample); }
   void add(std::shared_ptr<const Scan> scan) { scans_.push(std::move(scan)); }
   void on_scan(Notice notice) { notice_ = std::move(notice); }
 
@@ -41,6 +43,7 @@ class SlamStage {
   Counters queue_counters() const;
 
  private:
+  void take_motion();
   void show(const ScanResult& result);
 
   Slam& slam_;
@@ -50,6 +53,7 @@ class SlamStage {
   std::atomic<bool> closed_{false};
   Time counters_due_;
   BoundedQueue<ImuSample> imu_{256};
+  BoundedQueue<OdometrySample> odometry_{256};
   BoundedQueue<std::shared_ptr<const Scan>> scans_{4};
   BoundedQueue<GraphJob> jobs_{64};
   /// Each says what changed since the one before: all are needed, in their order.

@@ -77,12 +77,9 @@ void write_robot(const Ports& ports, MetricsWriter& out) {
 }
 
 void write_devices(const Ports& ports, MetricsWriter& out) {
-  const std::pair<const char*, const Latest<DeviceHealth>*> devices[] = {
-      {"lidar", &ports.lidar_health},   {"imu", &ports.imu_health},   {"motors", &ports.motors_health},
-      {"camera", &ports.camera_health}, {"pins", &ports.pins_health}, {"computer", &ports.computer_health}};
   const auto write = [&](const char* name, const char* type, const char* help, auto of) {
     out.begin(name, type, help);
-    for (const auto& [device, health] : devices)
+    for (const auto& [device, health] : ports.device_healths())
       if (const auto value = health->get().value)
         out.value(static_cast<double>(of(*value)), "device", device);
   };
@@ -94,11 +91,7 @@ void write_devices(const Ports& ports, MetricsWriter& out) {
 void write_counters(const Ports& ports, const ServerFigures& figures, MetricsWriter& out) {
   out.begin("events_total", "counter", "what went wrong or was left out, by name");
   for (const auto& [name, n] : figures.counters) out.value(static_cast<double>(n), "event", name);
-  for (const auto* part : {&ports.slam_counters, &ports.graph_counters, &ports.drive_counters}) {
-    const auto counted = part->get().value;
-    if (!counted) continue;
-    for (const auto& [name, n] : *counted) out.value(static_cast<double>(n), "event", name);
-  }
+  for (const auto& [name, n] : ports.counters()) out.value(static_cast<double>(n), "event", name);
 }
 
 }  // namespace

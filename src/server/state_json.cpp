@@ -160,11 +160,9 @@ json counters_json(const Counters& counters) {
 
 json device_json(const DeviceHealth* health) {
   if (!health) return {{"present", false}};
-  return {{"present", health->present},
-          {"samples", health->samples},
-          {"errors", health->errors},
-          {"last_sample_s", rounded(seconds_of(health->last_sample))},
-          {"trouble", health->trouble}};
+  return {{"present", health->present}, {"samples", health->samples},
+          {"errors", health->errors},   {"last_sample_s", rounded(seconds_of(health->last_sample))},
+          {"trouble", health->trouble}, {"about", health->about}};
 }
 
 }  // namespace
@@ -254,19 +252,9 @@ json recording_json(const Ports& ports) {
 
 json devices_json(const Ports& ports) {
   json all = json::object();
-  const auto add = [&all](const char* name, const Latest<DeviceHealth>& health) {
-    all[name] = device_json(health.get().value.get());
-  };
-  add("lidar", ports.lidar_health);
-  add("imu", ports.imu_health);
-  add("motors", ports.motors_health);
-  add("camera", ports.camera_health);
-  add("pins", ports.pins_health);
-  add("computer", ports.computer_health);
-  json counters = json::object();
-  for (const auto* part : {&ports.slam_counters, &ports.graph_counters, &ports.drive_counters})
-    if (const auto counted = part->get().value) counters.update(counters_json(*counted));
-  return {{"devices", all}, {"counters", counters}};
+  for (const auto& [name, health] : ports.device_healths())
+    all[name] = device_json(health->get().value.get());
+  return {{"devices", all}, {"counters", counters_json(ports.counters())}};
 }
 
 }  // namespace dynslam

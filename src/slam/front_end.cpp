@@ -14,8 +14,9 @@
 namespace dynslam {
 namespace {
 
-/// How long a scan waits for an IMU that has stopped talking, counted in the time of other samples.
-constexpr Duration kImuPatience = std::chrono::milliseconds(150);
+/// How long a scan waits for an IMU or wheels that have stopped talking, counted in the time of other
+/// samples.
+constexpr Duration kMotionPatience = std::chrono::milliseconds(150);
 /// Where a pose is nonsense, metres from the origin either way, and odometry too.
 constexpr double kFarthest_m = 1e6;
 constexpr double kFarthestOdometry_m = 1e7;
@@ -99,8 +100,10 @@ void FrontEnd::note_time(Time t) {
 
 bool FrontEnd::is_ready(const Scan& scan) const {
   const Time end = scan.stamp + from_seconds(scan.beams.empty() ? 0.0 : scan.beams.back().time_s);
-  const bool covered = motion_.imu().empty() || motion_.imu().settled() >= end;
-  return covered || newest_sample_ > end + kImuPatience || is_clock_jump(end, newest_sample_);
+  const bool imu_told = motion_.imu().empty() || motion_.imu().settled() >= end;
+  const bool wheels_told = motion_.odometry().empty() || motion_.odometry().newest() >= end;
+  return (imu_told && wheels_told) || newest_sample_ > end + kMotionPatience ||
+         is_clock_jump(end, newest_sample_);
 }
 
 std::optional<FrontEndResult> FrontEnd::next(bool at_end) {

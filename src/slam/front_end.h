@@ -41,9 +41,9 @@ struct FrontEndResult {
 /// From sensor samples to poses and local maps (thesis, figure 4.2). Its frame is continuous: poses are never
 /// corrected afterwards, they drift. What the drift was, the back end finds.
 ///
-/// Samples go in as they arrive. A scan waits until the IMU has told of its whole turn, or has fallen silent;
-/// then `next` takes it through the stages. Results depend on the samples and their order alone, never on a
-/// clock. One thread.
+/// Samples go in as they arrive. A scan waits until IMU and wheels have told of its whole turn, or have
+/// fallen silent; then `next` takes it through the stages. Results depend on the samples and their order
+/// alone, never on a clock. One thread.
 class FrontEnd {
  public:
   /// `watch`, when given, must outlive this. Throws InputError for a config with a problem().
@@ -58,7 +58,7 @@ class FrontEnd {
   void trust_range(double range_m) { config_.trusted_range_m = range_m; }
   double trusted_range_m() const { return config_.trusted_range_m; }
 
-  /// Works off the oldest scan that is ready. `at_end`: nothing more will come, do not wait for the IMU.
+  /// Works off the oldest scan that is ready. `at_end`: nothing more will come, do not wait for the others.
   /// A scan that is not later than the one before it is counted and passed over; a clock that was set back by
   /// more than a second is followed.
   std::optional<FrontEndResult> next(bool at_end = false);

@@ -15,6 +15,10 @@ class OdometryTrack {
   /// Of two samples with one stamp the later counts; samples from the past are dropped and counted.
   void add(const OdometrySample& sample);
 
+  bool empty() const { return samples_.empty(); }
+  /// REQUIRES: !empty().
+  Time newest() const { return samples_.back().stamp; }
+
   /// odom_T_robot; nothing before the oldest kept or later than kCarryOn after the newest (which is then
   /// taken as it is).
   std::optional<Pose2> pose_at(Time t) const;

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "io/open_recording.h"
 #include "sim/small_world.h"
 
 namespace dynslam::test {
@@ -96,6 +97,82 @@ TEST_F(WholeRobotTest, SlowsDownWithoutItsImuAndKnowsItsHeadingWhenItIsBack) {
   expect_driving_again();
   EXPECT_EQ(trouble("imu"), "");
   expect_to_know_its_place();
+}
+
+/// Turns the wheels' encoders as the robot rolls, in a thread of its own.
+class RollingWheels {
+ public:
+  static constexpr unsigned kLeftA = 5, kLeftB = 6, kRightA = 12, kRightB = 13;
+  static constexpr double kStep_m = 0.005, kTrack_m = 0.3;
+
+  explicit RollingWheels(EmulatedHardware& hardware)
+      : hardware_(hardware), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+  static void configure(EncodersConfig& config) {
+    config.left_a_line = kLeftA, config.left_b_line = kLeftB;
+    config.right_a_line = kRightA, config.right_b_line = kRightB;
+    config.right_reversed = false;
+    config.metres_per_step = kStep_m, config.track_m = kTrack_m;
+  }
+
+ private:
+  void run(const std::stop_token& stop) {
+    Time last = hardware_.clock.now();
+    while (!stop.stop_requested()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      const Twist twist = hardware_.world.twist();
+      const double seconds = to_seconds(hardware_.clock.now() - last);
+      last = hardware_.clock.now();
+      roll(kLeftA, kLeftB, left_m_, seconds * (twist.v_mps - 0.5 * kTrack_m * twist.w_radps));
+      roll(kRightA, kRightB, right_m_, seconds * (twist.v_mps + 0.5 * kTrack_m * twist.w_radps));
+    }
+  }
+  /// A leads; four steps a period: 00, 10, 11, 01.
+  void roll(unsigned a, unsigned b, double& rolled_m, double more_m) {
+    rolled_m += more_m;
+    const auto phase = static_cast<std::int64_t>(std::floor(rolled_m / kStep_m)) & 3;
+    hardware_.pins->set_wire(a, phase == 1 || phase == 2);
+    hardware_.pins->set_wire(b, phase >= 2);
+  }
+
+  EmulatedHardware& hardware_;
+  double left_m_ = 0.0, right_m_ = 0.0;
+  std::jthread thread_;
+};
+
+TEST_F(WholeRobotTest, HearsOfItsWheelsWhereTheyHaveEncoders) {
+  begin(bare_room());
+  RollingWheels::configure(config().hardware.encoders);
+  RollingWheels wheels(hardware());
+  start();
+  robot().ports().recording_wish.put({true, hardware().folder() + "/wheels.mcap"});
+  drive_by([](Time, const PoseEstimate&, const Verdict&) { return Twist{0.0, 0.5}; });
+  ASSERT_TRUE(comes_true(kPatience_s, [&] { return goes(); })) << state();
+  ASSERT_TRUE(comes_true(kPatience_s, [&] { return device("wheels").value("samples", 0) > 100; })) << state();
+  EXPECT_EQ(trouble("wheels"), "");
+  EXPECT_THAT(device("wheels")["about"].get<std::string>(), StartsWith("encoders on lines 5 and 6"));
+  EXPECT_THAT(device("lidar")["about"].get<std::string>(), HasSubstr("A3"));
+  EXPECT_THAT(device("imu")["about"].get<std::string>(), HasSubstr("gyroscope"));
+  EXPECT_THAT(device("motors")["about"].get<std::string>(), HasSubstr("failsafe on"));
+  expect_to_know_its_place();
+  let_go();
+  hardware().unplug_pins();
+  expect_trouble("wheels", "wheels");
+  hardware().plug_in_pins();
+  EXPECT_TRUE(comes_true(kPatience_s, [&] { return trouble("wheels").empty(); })) << state();
+  EXPECT_EQ(robot().stop().trouble, "");
+  robot().finish();
+  const auto recording = open_recording(hardware().folder() + "/wheels.mcap");
+  std::optional<OdometrySample> first, last;
+  while (const auto record = recording->next()) {
+    const auto* sample = std::get_if<OdometrySample>(&*record);
+    if (!sample) continue;
+    if (!first) first = *sample;
+    last = *sample;
+  }
+  ASSERT_TRUE(last);
+  EXPECT_GT(last->stamp - first->stamp, std::chrono::seconds(1));
+  EXPECT_GT(std::abs((first->odom_T_robot.inverse() * last->odom_T_robot).yaw), 0.2);
 }
 
 TEST_F(WholeRobotTest, SetsTheImuUpAnewWhenTheBusItselfWasGone) {

@@ -35,6 +35,8 @@ ImuSample small_imu(Time stamp) {
   return {stamp, Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d(0.1, 0.2, 0.9).normalized()))};
 }
 
+OdometrySample small_odometry(Time stamp) { return {stamp, {to_seconds(stamp - Time()), -0.25, 0.5}}; }
+
 /// A file in memory as the recorder writes it, a chunk for every scan and two samples.
 struct Written {
   std::string bytes;
@@ -49,6 +51,7 @@ struct Written {
       ros.write(t + Duration(1), small_scan(t));
       ros.write(t + Duration(2), small_imu(t));
       ros.write(t + Duration(3), PoseFix{{t, {0.1 * i, 0.0, 0.0}}, {}});
+      ros.write(t + Duration(4), small_odometry(t));
       mcap.close_chunk();
       chunk_ends.push_back(bytes.size());
     }
@@ -62,7 +65,7 @@ TEST(McapWriter, WhatIsWrittenReadsBackExactly) {
   EXPECT_EQ(all.damage, std::nullopt);
   ASSERT_EQ(all.scans.size(), 5U);
   ASSERT_EQ(all.imu.size(), 5U);
-  EXPECT_TRUE(all.odometry.empty()) << "what was computed from scans is no sensor";
+  ASSERT_EQ(all.odometry.size(), 5U) << "of the wheels: what was computed from scans is no sensor";
   EXPECT_EQ(all.counters["mcap.skipped./odom"], 5U);
   EXPECT_EQ(all.counters["stamp.from_log_time"], 0U) << "a robot's clock may begin at zero";
   for (int i = 0; i < 5; ++i) {
@@ -79,6 +82,10 @@ TEST(McapWriter, WhatIsWrittenReadsBackExactly) {
       EXPECT_EQ(got.beams[b].range_m, want.beams[b].range_m);
       EXPECT_FLOAT_EQ(got.beams[b].time_s, want.beams[b].time_s);
     }
+    const OdometrySample& wheels = all.odometry[static_cast<std::size_t>(i)];
+    EXPECT_EQ(wheels.stamp, want.stamp);
+    const Pose2 off = wheels.odom_T_robot.inverse() * small_odometry(want.stamp).odom_T_robot;
+    EXPECT_NEAR(off.translation().norm() + std::abs(off.yaw), 0.0, 1e-12);
     EXPECT_EQ(all.imu[static_cast<std::size_t>(i)].stamp, want.stamp);
     EXPECT_EQ(all.imu[static_cast<std::size_t>(i)].world_q_robot.coeffs(),
               small_imu(want.stamp).world_q_robot.coeffs());
@@ -167,14 +174,14 @@ TEST(McapWriter, TheIndexPointsAtWhatIsThere) {
   Written file(3);
   file.mcap.finish();
   const Summary summary(file.bytes);
-  EXPECT_EQ(summary.all(McapOpcode::kSchema).size(), 5U) << "/scan /imu /odom /tf /tf_static";
-  EXPECT_EQ(summary.all(McapOpcode::kChannel).size(), 5U);
+  EXPECT_EQ(summary.all(McapOpcode::kSchema).size(), 6U) << "/scan /imu /odom /tf /tf_static /wheel_odom";
+  EXPECT_EQ(summary.all(McapOpcode::kChannel).size(), 6U);
   const auto chunks = summary.all(McapOpcode::kChunkIndex);
   ASSERT_EQ(chunks.size(), 3U);
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     ByteCursor index(chunks[i]);
     EXPECT_EQ(index.number<std::uint64_t>(), 100'000'000U * i + 1) << "first log time";
-    EXPECT_EQ(index.number<std::uint64_t>(), 100'000'000U * i + 3) << "last log time";
+    EXPECT_EQ(index.number<std::uint64_t>(), 100'000'000U * i + 4) << "last log time";
     const auto at = index.number<std::uint64_t>();
     EXPECT_EQ(summary.opcode(at), McapOpcode::kChunk);
     EXPECT_EQ(index.number<std::uint64_t>(), kMcapRecordHead + summary.content(at).size());
@@ -186,7 +193,7 @@ TEST(McapWriter, TheIndexPointsAtWhatIsThere) {
       ASSERT_EQ(summary.opcode(index_at), McapOpcode::kMessageIndex);
       EXPECT_EQ(ByteCursor(summary.content(index_at)).number<std::uint16_t>(), channel);
     }
-    EXPECT_EQ(topics, i == 0 ? 5U : 4U);
+    EXPECT_EQ(topics, i == 0 ? 6U : 5U);
   }
 }
 
@@ -206,14 +213,14 @@ TEST(McapWriter, ChecksumsAndCountsAreRight) {
     EXPECT_EQ(summary.opcode(fields.number<std::uint64_t>()), opcode);
   }
   ByteCursor statistics(summary.all(McapOpcode::kStatistics).at(0));
-  EXPECT_EQ(statistics.number<std::uint64_t>(), 3U * 4U + 1U);
-  EXPECT_EQ(statistics.number<std::uint16_t>(), 5U);
-  EXPECT_EQ(statistics.number<std::uint32_t>(), 5U);
+  EXPECT_EQ(statistics.number<std::uint64_t>(), 3U * 5U + 1U);
+  EXPECT_EQ(statistics.number<std::uint16_t>(), 6U);
+  EXPECT_EQ(statistics.number<std::uint32_t>(), 6U);
   statistics.number<std::uint32_t>();
   EXPECT_EQ(statistics.number<std::uint32_t>(), 1U) << "metadata";
   EXPECT_EQ(statistics.number<std::uint32_t>(), 3U) << "chunks";
   EXPECT_EQ(statistics.number<std::uint64_t>(), 1U);
-  EXPECT_EQ(statistics.number<std::uint64_t>(), 200'000'003U);
+  EXPECT_EQ(statistics.number<std::uint64_t>(), 200'000'004U);
   ByteCursor metadata(summary.all(McapOpcode::kMetadataIndex).at(0));
   EXPECT_EQ(summary.opcode(metadata.number<std::uint64_t>()), McapOpcode::kMetadata);
 }

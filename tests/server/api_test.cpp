@@ -311,7 +311,9 @@ TEST(CoarseRanges, AreSeenFromTheRobotAndLeaveOutWhatIsNone) {
 TEST_F(ApiTest, MetricsAndDevicesNameWhatIsWrong) {
   draw_map();
   ports.drive.put(DriveState{});
-  ports.lidar_health.put({true, 12, 3, time_at_s(2), "it \"hangs\"\n"});
+  DeviceHealth lidar{true, 12, 3, time_at_s(2), "it \"hangs\"\n", "a lidar of \"ours\""};
+  lidar.counters.add("bad-checksums", 5);
+  ports.lidar_health.put(lidar);
   Counters slam;
   slam.add("front_end.no_match", 4);
   ports.slam_counters.put(slam);
@@ -320,13 +322,16 @@ TEST_F(ApiTest, MetricsAndDevicesNameWhatIsWrong) {
   for (const char* line :
        {"dynslam_device_errors_total{device=\"lidar\"} 3\n", "dynslam_device_ok{device=\"lidar\"} 0\n",
         "dynslam_events_total{event=\"front_end.no_match\"} 4\n",
+        "dynslam_events_total{event=\"lidar.bad-checksums\"} 5\n",
         "dynslam_events_total{event=\"server.stops\"} 1\n", "dynslam_pose_quality 0.5\n",
         "dynslam_verdict 3\n", "dynslam_command_to_motor_seconds_count 0\n", "dynslam_connections 0\n"})
     EXPECT_THAT(text, HasSubstr(line));
   const json devices = json::parse(ask("GET", "/api/v1/devices").body);
   EXPECT_EQ(devices["devices"]["lidar"]["errors"], 3);
   EXPECT_EQ(devices["devices"]["camera"]["present"], false);
+  EXPECT_EQ(devices["devices"]["lidar"]["about"], "a lidar of \"ours\"");
   EXPECT_EQ(devices["counters"]["front_end.no_match"], 4);
+  EXPECT_EQ(devices["counters"]["lidar.bad-checksums"], 5);
 }
 
 TEST(RouteTable, TakesOneNameOutOfAPath) {

@@ -31,8 +31,8 @@ export function advice(device: string, health: Device, age_ms: number | null): s
   return own?.trouble ?? words.trouble;
 }
 
-type Known = "lidar" | "imu" | "motors" | "camera" | "pins";
-const isKnown = (device: string): device is Known => ["lidar", "imu", "motors", "camera", "pins"].includes(device);
+type Known = "lidar" | "imu" | "motors" | "camera" | "pins" | "wheels";
+const isKnown = (device: string): device is Known => ["lidar", "imu", "motors", "camera", "pins", "wheels"].includes(device);
 
 function silence(health: Device, age_ms: number | null, what: string): string {
   const words = strings.more.advice;

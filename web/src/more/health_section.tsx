@@ -10,16 +10,19 @@ import { meaningOf, RisingCounters, type Counts } from "./counters";
 import { ageText, countText } from "./format";
 import { Breakable, Part, Trouble } from "./parts";
 
-const ORDER = ["lidar", "imu", "motors", "camera", "pins"];
+const ORDER = ["lidar", "imu", "motors", "camera", "pins", "wheels", "computer"];
+/** Not missed where there are none. */
+const RARE = ["wheels", "computer"];
 
 export function HealthSection() {
   const { value, at_ms, trouble } = useAsked<Devices>("api/v1/devices", 2000);
-  const names = Object.keys(value?.devices ?? {}).sort((a, b) => (ORDER.indexOf(a) + 1 || 99) - (ORDER.indexOf(b) + 1 || 99));
+  const devices = value?.devices ?? {};
+  const names = Object.keys(devices).filter((name) => devices[name]!.present || !RARE.includes(name)).sort((a, b) => (ORDER.indexOf(a) + 1 || 99) - (ORDER.indexOf(b) + 1 || 99));
   return (
     <>
       <Trouble text={trouble} />
       <ul class="cards">
-        {names.map((name) => <DeviceCard key={name} name={name} health={value!.devices[name]!} at_ms={at_ms} />)}
+        {names.map((name) => <DeviceCard key={name} name={name} health={devices[name]!} at_ms={at_ms} />)}
       </ul>
       <LinkPart />
       {value && <CounterTable counts={{ ...robot.state.peek()?.counters, ...value.counters }} at_ms={at_ms} />}
@@ -41,6 +44,7 @@ function DeviceCard({ name, health, at_ms }: { name: string; health: Device; at_
         <ConditionMark condition={condition} />
         {words.conditions[condition]}
       </p>
+      {health.about && <p class="said">{health.about}</p>}
       {health.present && (
         <dl class="facts">
           <div><dt>{words.samples}</dt><dd>{countText(health.samples ?? 0)}</dd></div>
