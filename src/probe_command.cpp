@@ -28,6 +28,7 @@
 #ifdef DYNSLAM_HAS_GPIO
 #include "drivers/gpio/chips.h"
 #include "drivers/gpio/gpio_pins.h"
+#include "drivers/gpio/output_pin.h"
 #include "drivers/gpio/wheel_encoders.h"
 #endif
 
@@ -86,6 +87,10 @@ void Prober::ask(const char* device, const std::function<void()>& question) {
 
 void Prober::lidar() {
   ask("lidar", [&] {
+#ifdef DYNSLAM_HAS_GPIO
+    const auto motor = make_lidar_motor_pin(config_.hardware.gpio);
+    if (motor) motor->set(true);
+#endif
     Rplidar lidar(config_.hardware.rplidar, config_.lidar.mount(), clock_);
     const Time until = clock_.now() + kLidarPatience;
     if (!lidar.identify(until))

@@ -23,6 +23,7 @@ namespace {
 
 constexpr auto kPause = std::chrono::milliseconds(1);
 constexpr unsigned long kTimeout_10ms = 5;
+constexpr int kTaken = ETXTBSY;  ///< no bus says this
 
 /// What the next try may well get past. Bus drivers differ in what they call a missing acknowledgement: most
 /// say EREMOTEIO, i2c-gpio ENXIO and EIO.
@@ -57,6 +58,17 @@ int write_once(int bus, std::uint8_t first, std::span<const std::uint8_t> values
   if (values.size() == 1) return -i2c_smbus_write_byte_data(bus, first, values[0]);
   const auto n = static_cast<std::uint8_t>(values.size());
   return -i2c_smbus_write_i2c_block_data(bus, first, n, values.data());
+}
+
+/// Takes the chip for this device alone: two programs would each get what the other asked for. By a lock on
+/// the byte of the bus's file that is its address; where files know no locks it is used without.
+bool is_taken(int bus, int address) {
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  lock.l_start = address;
+  lock.l_len = 1;
+  return ::fcntl(bus, F_OFD_SETLK, &lock) != 0 && (errno == EAGAIN || errno == EACCES);
 }
 
 std::string hex(int address) {
@@ -115,6 +127,10 @@ int I2cDevice::open_bus() {
     close_bus();
     return error;
   }
+  if (is_taken(bus_file_, address_)) {
+    close_bus();
+    return kTaken;
+  }
   // Some buses know neither: they are used as they are.
   ::ioctl(bus_file_, I2C_TIMEOUT, kTimeout_10ms);
   unsigned long functions = 0;
@@ -159,6 +175,8 @@ DeviceError I2cDevice::failure(int error) const {
       return says(bus_ + " may not be opened: is the user in group i2c?");
     case EBUSY:
       return says(at + " is held by a driver of the kernel: switch its overlay off");
+    case kTaken:
+      return says(at + " is in use: does dynslam run already? (systemctl stop dynslam)");
     case EREMOTEIO:
     case ENXIO:
       return says("nothing answers at " + at + ": is it wired and powered, and this its address?");

@@ -75,6 +75,23 @@ TEST_F(I2cDeviceTest, ReadsAnyNumberOfRegisters) {
   EXPECT_EQ(buses_.long_transfers(), 3) << "only what is longer than 32 bytes";
 }
 
+TEST_F(I2cDeviceTest, AChipIsForOneAtATime) {
+  Memo other_chip;
+  buses_.plug(1, 0x15, &other_chip);
+  I2cDevice second("second", "/dev/i2c-1", 0x28), other("other", "/dev/i2c-1", 0x15);
+  {
+    I2cDevice first("first", "/dev/i2c-1", 0x28);
+    EXPECT_EQ(first.write(0x0e), 0);
+    const int error = second.write(0x0e);
+    EXPECT_NE(error, 0);
+    EXPECT_THAT(second.failure(error).what(), HasSubstr("second: 0x28 on /dev/i2c-1 is in use"));
+    EXPECT_EQ(other.write(0x0e), 0);
+    EXPECT_EQ(first.write(0x0f), 0);
+  }
+  EXPECT_EQ(second.write(0x10), 0);
+  EXPECT_THAT(chip_.written, ElementsAre(Bytes{0x0e}, Bytes{0x0f}, Bytes{0x10}));
+}
+
 TEST_F(I2cDeviceTest, AsksInTwoTransfers) {
   std::array<std::uint8_t, 6> answer{};
   EXPECT_EQ(device_.ask(21, answer), 0);

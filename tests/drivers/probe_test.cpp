@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <atomic>
 #include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "drivers/emulated_hardware.h"
+#include "drivers/thunderborg/thunderborg.h"
 #include "probe_command.h"
 #include "sim/small_world.h"
 
@@ -51,6 +53,19 @@ TEST(Probe, TellsWhatEachDeviceIsAndSays) {
   EXPECT_THAT(text, HasSubstr("\ncamera   none, says camera.name\n"));
   EXPECT_THAT(text, HasSubstr("\npins     e-stop released, no bumper pressed\n"));
   EXPECT_THAT(text, HasSubstr("\ncomputer not a Raspberry Pi\n"));
+}
+
+TEST(Probe, LeavesTheDevicesOfARobotThatRunsAlone) {
+  EmulatedHardware hardware(bare_room());
+  ThunderBorg board(hardware.config().hardware.motors, hardware.clock);
+  board.drive({0.5, 0.5});
+  std::atomic<bool> switched_off{false};
+  hardware.motors.on_driven([&](double a, double) { switched_off = switched_off || a == 0.0; });
+  const auto [code, text] = probe(hardware);
+  EXPECT_EQ(code, 1);
+  EXPECT_THAT(
+      text, HasSubstr("\nmotors   does not answer. motors: 0x15 on /dev/i2c-1 is in use: does dynslam run"));
+  EXPECT_FALSE(switched_off) << "the motors were switched off";
 }
 
 TEST(Probe, DrawsWhatTheLidarSeesWithTheRobotsFrontUp) {

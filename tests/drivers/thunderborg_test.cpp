@@ -231,8 +231,13 @@ TEST_F(ThunderBorgTest, SwitchesOffInTheEnd) {
 }
 
 TEST_F(ThunderBorgTest, SwitchesOffWhatAnEarlierRunLeftRunning) {
-  motors().drive({1, 1});
-  ThunderBorg again(config_, clock_);
+  {
+    I2cDevice crashed("crashed", config_.bus, config_.address);
+    for (const auto command : {thunderborg::Command::kForwardA, thunderborg::Command::kForwardB})
+      EXPECT_EQ(crashed.write(static_cast<std::uint8_t>(command), std::array<std::uint8_t, 1>{255}), 0);
+  }
+  expect_power(1, 1);
+  motors();
   expect_power(0, 0);
 }
 
