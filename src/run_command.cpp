@@ -50,7 +50,7 @@ int run_robot(const Config& config) {
   const RunningClock clock;
   Supervisor supervisor;
   RobotConfig own = robot_config(config);
-  own.control_first = true;
+  own.timely_first = true;
   Robot robot(make_real_devices(config, clock), own, clock);
   robot.slam().keep_path(kPathKept);
   const LogTap tap(robot.ports(), clock);

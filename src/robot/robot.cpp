@@ -12,14 +12,21 @@ namespace {
 
 constexpr Duration kNobodyWatches = std::chrono::milliseconds(100);
 constexpr std::chrono::seconds kDiskPatience{5};
-constexpr int kControlPriority = 20;
+constexpr int kControlPriority = 20, kImuPriority = 10;
+
+/// Without the right to it the thread is one among others.
+void go_first(int priority) {
+  sched_param param{};
+  param.sched_priority = priority;
+  pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
+}
 
 }  // namespace
 
 Robot::Robot(Devices devices, const RobotConfig& config, const Clock& clock, StageWatch* watch)
     : devices_(std::move(devices)),
       watch_(watch),
-      control_first_(config.control_first),
+      timely_first_(config.timely_first),
       clock_(clock),
       slam_(config.slam, watch),
       slam_stage_(slam_, ports_, clock),
@@ -71,9 +78,12 @@ void Robot::start() {
   recorder_.turn();  // a recording that is wished for already misses nothing
   start_thread("recorder", [this] { run_recorder(); });
   threads_.back().grace = kDiskPatience;
-  start_thread("control", [this] { run_control(); });
+  start_thread(
+      "control", [this] { run_control(); }, kControlPriority);
   if (lidar_) start_thread("lidar", [this] { lidar_->turn(stop_); });
-  if (imu_) start_thread("imu", [this] { imu_->turn(stop_); });
+  if (imu_)
+    start_thread(
+        "imu", [this] { imu_->turn(stop_); }, kImuPriority);
   if (wheels_) start_thread("wheels", [this] { wheels_->turn(stop_); });
   if (camera_) start_thread("camera", [this] { poll_camera(); });
   start_thread("slam", [this] { slam_stage_.turn(); });
@@ -88,10 +98,11 @@ void Robot::start() {
 
 /// A thread takes turns until it is asked to stop, one at the least: the robot may have ended before the
 /// thread began, and has to stand still all the same. What it throws ends the robot, not the program.
-void Robot::start_thread(const char* name, std::function<void()> turn) {
+void Robot::start_thread(const char* name, std::function<void()> turn, int priority) {
   std::promise<void> ended;
   std::future<void> end = ended.get_future();
-  auto run = [this, name, turn = std::move(turn), ended = std::move(ended)]() mutable {
+  auto run = [this, name, priority, turn = std::move(turn), ended = std::move(ended)]() mutable {
+    if (timely_first_ && priority > 0) go_first(priority);
     try {
       do turn();
       while (!stop_.requested());
@@ -103,16 +114,8 @@ void Robot::start_thread(const char* name, std::function<void()> turn) {
   threads_.push_back({std::thread(std::move(run)), std::move(end), {}});
 }
 
-/// Without the right to it the thread is one among others.
-void Robot::go_first() {
-  sched_param param{};
-  param.sched_priority = kControlPriority;
-  pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
-}
-
 /// Ticks until the end, and stands still then, whatever it is that ends it.
 void Robot::run_control() {
-  if (control_first_) go_first();
   try {
     while (!stop_.wait(clock_.steady(control_.due()))) control_turn();
   } catch (...) {

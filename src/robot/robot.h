@@ -29,7 +29,9 @@ struct RobotConfig {
   LidarMount lidar_mount;
   RecorderConfig recorder;
   RecordingAbout recording_about;
-  bool control_first = false;  ///< the control's thread goes before all others, where that is allowed
+  /// The threads that must be in time, the control's and then the IMU's, go before all others, where that is
+  /// allowed.
+  bool timely_first = false;
 };
 
 /// The whole robot: its devices, and the stages between them and the ports (design, section 6). Runs in one
@@ -75,8 +77,7 @@ class Robot {
   Counters counters() const;
 
  private:
-  void start_thread(const char* name, std::function<void()> turn);
-  void go_first();
+  void start_thread(const char* name, std::function<void()> turn, int priority = 0);
   void run_control();
   void control_turn();
   void run_recorder();
@@ -88,7 +89,7 @@ class Robot {
 
   Devices devices_;
   StageWatch* watch_;
-  bool control_first_;
+  bool timely_first_;
   const Clock& clock_;
   Ports ports_;
   StopSignal stop_;

@@ -46,7 +46,9 @@ void WholeRobot::begin(const World& world, EmulatedHardware::Plugged plugged) {
 void WholeRobot::start(const std::function<void(Devices&)>& wrap) {
   Devices devices = make_real_devices(config_, hardware_->clock);
   if (wrap) wrap(devices);
-  robot_ = std::make_unique<Robot>(std::move(devices), robot_config(config_), hardware_->clock);
+  RobotConfig own = robot_config(config_);
+  own.timely_first = true;
+  robot_ = std::make_unique<Robot>(std::move(devices), own, hardware_->clock);
   robot_->start();
 }
 
