@@ -144,7 +144,7 @@ Destination GoalsScript::draw(const std::vector<Vector2>& floor) {
   if (random_.uniform() < 0.9 && !floor.empty()) {
     const auto at = static_cast<std::size_t>(random_.uniform() * static_cast<double>(floor.size()));
     const double off_m = 0.5 * kFloorStep_m;
-    to.point_map = floor[at] + Vector2(random_.uniform(-off_m, off_m), random_.uniform(-off_m, off_m));
+    to.point_map = floor[at] + Vector2{random_.uniform(-off_m, off_m), random_.uniform(-off_m, off_m)};
   } else {
     Vector2 low = Vector2::Zero(), high = Vector2::Zero();
     for (const Vector2& p : floor) {

@@ -75,6 +75,8 @@ case $from in
   12 | 13) copy_debian ;;
   *) copy_pi ;;
 esac
+# An emulated program would take these for its devices.
+rm -rf --one-file-system "$sysroot/dev"
 move_lists
 # Links to /lib/... would lead to this machine's own libraries.
 find "$sysroot/$libraries" -lname '/*' | while read -r link; do
