@@ -105,7 +105,7 @@ TEST(ShortestRoute, IsMissedByLessThanTwoPerCent) {
     const Costmap map = floor.costmap();
     const VisibilityGraph graph(map, kRadius_m + config.margin_m + 0.002);
     std::uniform_real_distribution<double> at(0.25, kSide_m - 0.25);
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 8; ++i) {
       const Vector2 start{at(random), at(random)}, goal{at(random), at(random)};
       if (map.clearance_m(start) < 0.24 || map.clearance_m(goal) < 0.24) continue;
       const double exact_m = graph.shortest_m(start, goal);
