@@ -74,7 +74,9 @@ step_sim() {
 # What leaves the robot, read with the packages that others read it with.
 need_npm() {
   need nodejs npm
-  quietly npm --prefix tests/web ci --no-audit --no-fund
+  # Not anew each time: another step may be using them.
+  [[ tests/web/node_modules/.package-lock.json -nt tests/web/package-lock.json ]] ||
+    quietly npm --prefix tests/web ci --no-audit --no-fund
 }
 
 need_browser() {
@@ -122,13 +124,15 @@ step_asan() {
 # Half an hour of a robot's life, step by step, and half an hour of attacks on its server: memory must not grow. With
 # sanitizers it is faults and leaks that are looked for, as they keep and pad what they hand out; what the program itself
 # holds is watched without, in the same half hour.
-step_soak() {
+prepare_soak() {
   need_to_build
   quietly cmake --preset asan
   quietly cmake --build --preset asan --target dynslam_soak dynslam
-  build/asan/tests/tools/soak/dynslam_soak --minutes 30
   need_npm
   toolchain/host.sh build
+}
+step_soak() {
+  build/asan/tests/tools/soak/dynslam_soak --minutes 30
   local seconds=${SOAK_SECONDS:-1800} sanitized
   DYNSLAM=$PWD/build/asan/src/dynslam ASAN_OPTIONS=quarantine_size_mb=16 \
     node tests/web/server/soak.mjs "$seconds" 1024 >"$logs/soak_asan" 2>&1 &
@@ -195,18 +199,21 @@ step_tidy() {
 step_fuzz() {
   need_to_build clang libclang-rt-dev
   build fuzz
-  local target name found=build/fuzz/found
-  mkdir -p $found
-  for target in build/fuzz/tests/fuzz/fuzz_*; do
-    [[ -f $target && -x $target ]] || continue
-    name=${target##*/fuzz_}
-    mkdir -p "build/fuzz/corpus/$name"
-    "$target" -max_total_time="${FUZZ_SECONDS:-60}" -timeout=10 -rss_limit_mb=2048 -artifact_prefix=$found/ \
-      "build/fuzz/corpus/$name" "tests/fuzz/corpus/$name" >"$logs/fuzz_$name" 2>&1 ||
-      { tail -n 60 "$logs/fuzz_$name" && return 1; }
-    echo "$name: $(grep '^Done' "$logs/fuzz_$name")"
-  done
-  [[ $name ]]
+  export -f fuzz
+  export logs
+  find build/fuzz/tests/fuzz -name 'fuzz_*' -type f -executable -print0 | sort -z |
+    xargs -0 --no-run-if-empty -I{} -P "$CMAKE_BUILD_PARALLEL_LEVEL" bash -c 'fuzz {}'
+  grep -q '^Done' "$logs"/fuzz_*
+}
+
+# One target, which must be done with its time and have found nothing.
+fuzz() {
+  local name=${1##*/fuzz_} found=build/fuzz/found
+  mkdir -p "build/fuzz/corpus/$name" $found
+  "$1" -max_total_time="${FUZZ_SECONDS:-60}" -timeout=10 -rss_limit_mb=2048 -artifact_prefix=$found/ \
+    "build/fuzz/corpus/$name" "tests/fuzz/corpus/$name" >"$logs/fuzz_$name" 2>&1 ||
+    { tail -n 60 "$logs/fuzz_$name" && return 1; }
+  echo "$name: $(grep '^Done' "$logs/fuzz_$name")"
 }
 
 # Tests and runs a clean clone of the last commit in a new Debian, and tests again what is built.
