@@ -111,6 +111,17 @@ std::string encode_odometry(std::string_view frame, Time stamp, const Pose2& fra
   return cdr.bytes();
 }
 
+std::string encode_path(Time stamp, std::span<const Vector2> points_map) {
+  CdrWriter cdr;
+  put_header(cdr, stamp, "map");
+  cdr.put(static_cast<std::uint32_t>(points_map.size()));
+  for (const Vector2& point : points_map) {
+    put_header(cdr, stamp, "map");
+    put_pose(cdr, {point.x(), point.y(), 0.0});
+  }
+  return cdr.bytes();
+}
+
 std::string encode_twist(Time stamp, const Twist& twist) {
   CdrWriter cdr;
   put_header(cdr, stamp, "base_link");

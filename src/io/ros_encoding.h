@@ -44,6 +44,9 @@ std::string encode_transforms(std::span<const RosTransform> transforms);
 std::string encode_odometry(std::string_view frame, Time stamp, const Pose2& frame_T_robot,
                             const Eigen::Matrix3d& covariance, const Twist& twist);
 
+/// nav_msgs/Path of points in `map`; the poses' headings mean nothing.
+std::string encode_path(Time stamp, std::span<const Vector2> points_map);
+
 /// geometry_msgs/TwistStamped.
 std::string encode_twist(Time stamp, const Twist& twist);
 

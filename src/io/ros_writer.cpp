@@ -48,7 +48,8 @@ McapTopic RosWriter::describe(Topic topic) {
                                                {"/camera/compressed", "sensor_msgs", "CompressedImage"},
                                                {"/diagnostics", "diagnostic_msgs", "DiagnosticArray"},
                                                {"/rosout", "rcl_interfaces", "Log"},
-                                               {"/wheel_odom", "nav_msgs", "Odometry"}}};
+                                               {"/wheel_odom", "nav_msgs", "Odometry"},
+                                               {"/plan", "nav_msgs", "Path"}}};
   const Row& row = kRows[topic];
   const std::string package(row.package), type(row.type);
   McapTopic out{std::string(row.topic),
@@ -112,6 +113,10 @@ void RosWriter::write(Time now, const JpegFrame& frame) {
 
 void RosWriter::write_applied(Time now, const Twist& twist) {
   put(kApplied, now, now, encode_twist(now, twist));
+}
+
+void RosWriter::write_route(Time now, std::span<const Vector2> route_map) {
+  put(kRoute, now, now, encode_path(now, route_map));
 }
 
 void RosWriter::write_battery(Time now, const BatteryState& battery) {

@@ -38,6 +38,7 @@ class RosWriter {
   void write(Time now, const JpegFrame& frame);
   void write_applied(Time now, const Twist& twist);
   void write_battery(Time now, const BatteryState& battery);
+  void write_route(Time now, std::span<const Vector2> route_map);
   void write_map(Time now, Time stamp, const TrinaryMap& map);
   void write_diagnostics(Time now, std::span<const DiagnosticStatus> statuses);
   void write_log(Time now, const LogLine& line, std::string_view name);
@@ -57,6 +58,7 @@ class RosWriter {
     kDiagnostics,
     kLog,
     kWheels,
+    kRoute,
     kTopics
   };
   static McapTopic describe(Topic topic);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "robot/event_writer.h"
 
+#include <cmath>
 #include <functional>
 #include <string_view>
 #include <utility>
@@ -53,6 +54,30 @@ LogLine log_line(Time time, const Verdict& verdict) {
   return {time, level, std::string(to_string(verdict.motion)) + ": " + verdict.reason};
 }
 
+std::string centimetres_text(double metres) { return shortest_text(std::round(100.0 * metres) / 100.0); }
+
+/// What it is about; empty: people drive.
+std::string in_words(const AutopilotStatus& status) {
+  const std::string why = status.reason.empty() ? "" : ": " + status.reason;
+  switch (status.phase) {
+    case AutopilotPhase::kActive: {
+      std::string text = status.mode == AutopilotMode::kExploration ? "explores" : "drives";
+      if (status.goal) {
+        const Vector2& to = status.goal->point_map;
+        text += ", to " + centimetres_text(to.x()) + ", " + centimetres_text(to.y());
+      }
+      return text + why;
+    }
+    case AutopilotPhase::kIdle:
+      return "has nothing to do" + why;
+    case AutopilotPhase::kStopped:
+      return "cannot go on" + why;
+    case AutopilotPhase::kOff:
+      break;
+  }
+  return {};
+}
+
 std::size_t hash_of(const TrinaryMap& map) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(map.cells.data()), map.cells.size()});
 }
@@ -97,10 +122,12 @@ void EventWriter::write_drive(Time now, const DriveState& drive) {
 
 void EventWriter::look(Time now) {
   while (const auto line = ports_.log.try_pop()) ros_.write_log(now, *line, "dynslam");
-  if (now >= health_due_) {
+  const bool is_due = now >= health_due_;
+  if (is_due) {
     health_due_ = now + kHealthEvery;
     write_health(now);
   }
+  write_autopilot(now, is_due);
   if (now >= map_due_) {
     map_due_ = now + kMapEvery;
     write_map(now);
@@ -128,6 +155,17 @@ void EventWriter::write_health(Time now) {
     all.push_back({level, "recorder", "records", {{"dropped", std::to_string(recording->dropped)}}});
   }
   ros_.write_diagnostics(now, all);
+}
+
+void EventWriter::write_autopilot(Time now, bool is_due) {
+  const auto status = ports_.autopilot.get().value;
+  if (!status) return;
+  const std::string text = in_words(*status);
+  if (std::exchange(autopilot_told_, text) != text) {
+    const LogLevel level = status->phase == AutopilotPhase::kStopped ? LogLevel::kWarn : LogLevel::kInfo;
+    ros_.write_log(now, {status->time, level, text.empty() ? "is off" : text}, "autopilot");
+  }
+  if (is_due && !text.empty()) ros_.write_route(now, status->route_map);
 }
 
 /// Only when a cell has changed since the last one.

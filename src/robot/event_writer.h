@@ -11,7 +11,8 @@
 namespace dynslam {
 
 /// Decides what of a robot's events becomes which message of a recording, and adds what is told by the clock:
-/// the battery and how devices are doing every second, the map every ten. One for each file; one thread.
+/// the battery, how devices are doing and the autopilot's route every second, what the autopilot is about
+/// when that changes, the map every ten seconds. One for each file; one thread.
 class EventWriter {
  public:
   /// Both must outlive it.
@@ -30,6 +31,7 @@ class EventWriter {
   void write_drive(Time now, const DriveState& drive);
   void write_map(Time now);
   void write_health(Time now);
+  void write_autopilot(Time now, bool is_due);
 
   RosWriter& ros_;
   Ports& ports_;
@@ -38,6 +40,7 @@ class EventWriter {
   std::optional<BatteryState> battery_;
   std::optional<PoseEstimate> pose_;
   std::optional<std::size_t> map_hash_;
+  std::string autopilot_told_;
 };
 
 }  // namespace dynslam

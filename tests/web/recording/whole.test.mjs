@@ -148,3 +148,35 @@ describe("a recording", () => {
     assert.deepEqual(readTum(join(again, "trajectory_live.tum")).slice(0, live.length), live);
   });
 });
+
+describe("a recording of a robot that drives itself", () => {
+  const out = temporaryFolder();
+  let recording;
+
+  before(() => {
+    run("sim", "--headless", "--speed", "0", "--world", "empty", "--mission", "goals:2", "--out", out);
+    recording = readStream(join(out, "recording.mcap"));
+  });
+
+  it("tells what it is about, whenever that changes", () => {
+    const lines = recording.on("/rosout").map((m) => m.message).filter((line) => line.name === "autopilot").map((line) => line.msg);
+    assert.ok(lines.some((line) => line.startsWith("explores")), lines.join("\n"));
+    assert.ok(lines.some((line) => /^drives, to -?\d+(\.\d{1,2})?, -?\d/.test(line)), lines.join("\n"));
+    lines.slice(1).forEach((line, i) => assert.notEqual(line, lines[i]));
+  });
+
+  it("has the route as long as there is one, from the robot on", async () => {
+    const reader = await openIndexed(join(out, "recording.mcap"));
+    const channel = [...reader.channelsById.values()].find((c) => c.topic === "/plan");
+    assert.equal(reader.schemasById.get(channel.schemaId).name, "nav_msgs/msg/Path");
+    const poses = recording.on("/tf").map((m) => ({ ...mapPose(m.message), logTime: m.logTime }));
+    const routes = recording.on("/plan").filter((m) => m.message.poses.length > 1);
+    assert.ok(routes.length > 10);
+    for (const { logTime, message } of routes) {
+      assert.equal(message.header.frame_id, "map");
+      const robot = poses.findLast((pose) => pose.logTime <= logTime);
+      const { x, y } = message.poses[0].pose.position;
+      assert.ok(Math.hypot(x - robot.x, y - robot.y) < 0.3, "it begins where the robot is");
+    }
+  });
+});
