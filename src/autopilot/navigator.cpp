@@ -14,7 +14,7 @@ constexpr double kFirstPatience_s = 3.0;
 /// A new route must be shorter by so much, or the robot would waver between two ways round.
 constexpr double kBetter = 0.9;
 /// Who stands at the destination gets so long to step aside.
-constexpr Duration kStepsAside = std::chrono::seconds(8);
+constexpr double kStepsAside_s = 8.0;
 /// A route's end is not farther away when its follower has arrived there.
 constexpr double kAtEnd_m = 0.5;
 /// To look whether the way is still shut, it is not worth to drive less far.
@@ -71,10 +71,10 @@ Navigator::Report Navigator::turn(Time now, const Pose2& map_T_robot, const Cost
   if (is_route_due(now, costmap, follow)) plan(now, map_T_robot, costmap, follow);
   if (!task_) {
     if (is_hopeless(costmap, to_->point_map)) return end(State::kNoRoute, last_plan_->reason);
-    return wait(now, last_plan_->reason);
+    return wait(now, last_plan_->reason, last_plan_->is_cut_off ? patience_s_ : kStepsAside_s);
   }
   if (is_news && (follow.state == Following::kBlocked || follow.state == Following::kWaiting))
-    return wait(now, follow.reason);
+    return wait(now, follow.reason, patience_s_);
   held_up_since_.reset();
   if (near_since_) return {State::kWaiting, last_plan_->reason};
   return {State::kDriving};
@@ -89,7 +89,7 @@ bool Navigator::is_arrival(Time now, const Pose2& map_T_robot, const FollowRepor
   if (!is_there || !may_get_free) near_since_.reset();
   if (!is_there || !may_get_free) return is_there;
   if (!near_since_ || now < *near_since_) near_since_ = now;
-  return now - *near_since_ > kStepsAside;
+  return now - *near_since_ > from_seconds(kStepsAside_s);
 }
 
 /// On time, and at once when the route ends in something.
@@ -143,9 +143,9 @@ bool Navigator::is_better(const Plan& plan, const Costmap& costmap, const Follow
   return plan.length_m < kBetter * follow.remaining_m;
 }
 
-Navigator::Report Navigator::wait(Time now, const std::string& reason) {
+Navigator::Report Navigator::wait(Time now, const std::string& reason, double most_s) {
   if (!held_up_since_ || now < *held_up_since_) held_up_since_ = now;
-  const double patience_s = had_route_ ? patience_s_ : std::min(patience_s_, kFirstPatience_s);
+  const double patience_s = std::min({patience_s_, most_s, had_route_ ? patience_s_ : kFirstPatience_s});
   if (now - *held_up_since_ > from_seconds(patience_s)) return end(State::kNoRoute, reason);
   return {State::kWaiting, reason};
 }

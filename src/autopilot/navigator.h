@@ -75,7 +75,7 @@ class Navigator {
   Plan approach(Plan plan, const Vector2& robot_map, const Costmap& costmap);
   bool is_better(const Plan& plan, const Costmap& costmap, const FollowReport& follow) const;
   bool is_blocked(const Costmap& costmap, const FollowReport& follow) const;
-  Report wait(Time now, const std::string& reason);
+  Report wait(Time now, const std::string& reason, double most_s);
   Report end(State state, const std::string& reason);
 
   NavigationConfig config_;

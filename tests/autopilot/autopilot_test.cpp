@@ -223,6 +223,28 @@ TEST(Autopilot, ContentsItselfWithAPlaceNearbyWhenItsDestinationStaysTaken) {
   EXPECT_LT(pilot.away_m(goal), 0.5);
 }
 
+TEST(Autopilot, DoesNotWaitLongForWhatTakesUpAllAroundItsDestination) {
+  Pilot pilot({
+      "##############################",  //
+      "#.............#..............#",  //
+      "#............................#",  //
+      "#..s..................bbbbb..#",  //
+      "#.....................bbgbb..#",  //
+      "#.....................bbbbb..#",  //
+      "#.............#.......bbbbb..#",  //
+      "##############################",  //
+  });
+  pilot.building.know_all();
+  pilot.turn(GoThere{{pilot.building.find('g')}});
+  for (int i = 0; i < 5; ++i) pilot.turn();
+  pilot.building.wall_up('b');
+  pilot.building.know_all();
+  const Time taken = pilot.now;
+  EXPECT_THAT(pilot.run().reason, HasSubstr("no route"));
+  EXPECT_GT(pilot.now - taken, std::chrono::seconds(7));
+  EXPECT_LT(pilot.now - taken, std::chrono::seconds(14)) << "though it waits for a door for longer";
+}
+
 TEST(Autopilot, WhoTakesTheWheelEndsIt) {
   KnownFlat pilot;
   pilot.turn(GoThere{{pilot.building.find('g')}});
