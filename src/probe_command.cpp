@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <functional>
 #include <istream>
@@ -35,10 +36,26 @@
 namespace dynslam {
 namespace {
 
+/// Devices are waited for in such steps, so that Ctrl-C is heard.
+constexpr Duration kMoment = std::chrono::milliseconds(100);
 constexpr Duration kLidarPatience = std::chrono::seconds(8);
 constexpr Duration kImuPatience = std::chrono::seconds(3);
 [[maybe_unused]] constexpr Duration kWheelPatience = std::chrono::milliseconds(100);
 constexpr double kDegree = kTwoPi / 360.0;
+
+volatile std::sig_atomic_t stop_signal = 0;
+
+/// Somebody does not want to know any more. What is asked is left as it is at an end: motors stand.
+struct Interrupted {};
+void heed_signals() {
+  if (stop_signal != 0) throw Interrupted();
+}
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int signal) { stop_signal = signal; };
+  action.sa_flags = 0;  // not SA_RESTART: a question that waits for its answer ends too
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+}
 
 template <class... Values>
 std::string print(const char* form, Values... values) {
@@ -83,6 +100,7 @@ void Prober::ask(const char* device, const std::function<void()>& question) {
     ++silent_;
   }
   out_.flush();
+  heed_signals();
 }
 
 void Prober::lidar() {
@@ -93,8 +111,11 @@ void Prober::lidar() {
 #endif
     Rplidar lidar(config_.hardware.rplidar, config_.lidar.mount(), clock_);
     const Time until = clock_.now() + kLidarPatience;
-    if (!lidar.identify(until))
-      throw DeviceError("lidar: it began to answer, and stopped: is its supply strong enough?");
+    while (!lidar.identify(clock_.now() + kMoment)) {
+      heed_signals();
+      if (clock_.now() > until)
+        throw DeviceError("lidar: it began to answer, and stopped: is its supply strong enough?");
+    }
     const rplidar::Portrait& p = lidar.report().device;
     say("lidar", print("%s, firmware %s, hardware %d, on %s at %d baud",
                        p.info ? p.info->model_name().c_str() : "of an unknown kind",
@@ -106,7 +127,10 @@ void Prober::lidar() {
                  p.mode && p.mode->name == mode.name ? "*" : " ", mode.name.c_str(),
                  mode.sample_us > 0.0 ? 1e6 / mode.sample_us : 0.0, mode.max_range_m));
     std::optional<Scan> scan;
-    while (!scan && clock_.now() < until) scan = lidar.next(until);
+    while (!scan && clock_.now() < until) {
+      scan = lidar.next(clock_.now() + kMoment);
+      heed_signals();
+    }
     if (!scan) throw DeviceError("lidar: it does not turn: is its motor supplied, is anything caught in it?");
     const auto returns = std::count_if(scan->beams.begin(), scan->beams.end(), is_return);
     more(print("a turn has %zu beams, %td of them come back:", scan->beams.size(), returns));
@@ -121,7 +145,10 @@ void Prober::imu() {
     Bno055 imu(config_.hardware.imu, clock_);
     std::optional<ImuSample> sample;
     const Time until = clock_.now() + kImuPatience;
-    while (!sample && clock_.now() < until) sample = imu.next(until);
+    while (!sample && clock_.now() < until) {
+      sample = imu.next(clock_.now() + kMoment);
+      heed_signals();
+    }
     if (!sample)
       throw DeviceError(
           "imu: it answers, but measures nothing: give it a moment of rest, or its supply off and on");
@@ -150,7 +177,7 @@ void Prober::spin(ThunderBorg& board, std::istream& in) {
   if (answer != "yes") return more("the wheels were left alone");
   for (const double power : {0.25, -0.25}) {
     const Time until = clock_.now() + std::chrono::milliseconds(250);
-    while (clock_.now() < until) {
+    while (clock_.now() < until && stop_signal == 0) {
       board.drive({power, power});
       std::this_thread::sleep_until(clock_.steady(clock_.now() + std::chrono::milliseconds(20)));
     }
@@ -237,14 +264,19 @@ void Prober::computer() {
 }  // namespace
 
 int run_probe(const ProbeOptions& options, const Config& config, std::istream& in, std::ostream& out) {
+  catch_signals();
   Prober prober(config, out);
-  prober.lidar();
-  prober.imu();
-  prober.motors(options.spin_motors, in);
-  prober.camera();
-  prober.pins();
-  prober.wheels();
-  prober.computer();
+  try {
+    prober.lidar();
+    prober.imu();
+    prober.motors(options.spin_motors, in);
+    prober.camera();
+    prober.pins();
+    prober.wheels();
+    prober.computer();
+  } catch (const Interrupted&) {
+    return 128 + stop_signal;
+  }
   return prober.silent() == 0 ? 0 : 1;
 }
 

@@ -123,5 +123,16 @@ TEST_F(RunCommand, ProbeTellsItAllAndEndsWell) {
     EXPECT_THAT(probe.said(), HasSubstr(words));
 }
 
+TEST_F(RunCommand, ProbeThatIsInterruptedLeavesTheLidarAtRest) {
+  hardware_.lidar.set_spin_up(std::chrono::seconds(5));
+  Process probe = dynslam("probe");
+  EXPECT_TRUE(comes_true([&] { return hardware_.lidar.turns(); })) << probe.said();
+  probe.terminate();
+  std::optional<int> code;
+  EXPECT_TRUE(comes_true([&] { return (code = probe.ended()).has_value(); }));
+  EXPECT_EQ(code, 128 + SIGTERM) << probe.said();
+  EXPECT_TRUE(comes_true([&] { return !hardware_.lidar.turns(); })) << "its motor is left on";
+}
+
 }  // namespace
 }  // namespace dynslam::test
