@@ -199,6 +199,7 @@ step_tidy() {
 step_fuzz() {
   need_to_build clang libclang-rt-dev
   build fuzz
+  rm -f "$logs"/fuzz_*
   export -f fuzz
   export logs
   find build/fuzz/tests/fuzz -name 'fuzz_*' -type f -executable -print0 | sort -z |
