@@ -131,8 +131,10 @@ int I2cDevice::open_bus() {
     close_bus();
     return kTaken;
   }
-  // Some buses know neither: they are used as they are.
+  // Some buses know none of this: they are used as they are. Tries are ours: a software bus that hangs spins
+  // in the kernel for 0.2 s a try, and four in a row are too much for a real-time thread.
   ::ioctl(bus_file_, I2C_TIMEOUT, kTimeout_10ms);
+  ::ioctl(bus_file_, I2C_RETRIES, 0UL);
   unsigned long functions = 0;
   ::ioctl(bus_file_, I2C_FUNCS, &functions);
   software_bus_ = (functions & I2C_FUNC_NOSTART) != 0;  // of the Pi's buses only i2c-gpio can

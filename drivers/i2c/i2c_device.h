@@ -16,7 +16,8 @@ namespace dynslam {
 /// One chip on an I2C bus, by the kernel's /dev/i2c-N, for one program at a time. The bus is opened at the
 /// first transfer and, once it went away, again at the next. A transfer that fails as transfers do now and
 /// then (no acknowledgement, a stretched clock read wrongly) is tried again; a bus that hangs is not, as each
-/// try takes its time-out of 50 ms. Any thread: a mutex keeps a question and its answer together.
+/// try takes its time-out of 50 ms. (Software buses have a time-out of their own, and may call hanging a
+/// missing acknowledgement.) Any thread: a mutex keeps a question and its answer together.
 ///
 /// Transfers return 0 or an errno; failure() puts it into words.
 class I2cDevice {
