@@ -17,6 +17,8 @@ namespace {
 /// How long a scan waits for an IMU or wheels that have stopped talking, counted in the time of other
 /// samples.
 constexpr Duration kMotionPatience = std::chrono::milliseconds(150);
+/// Wheels that have been silent for so long are not waited for any more, or each pose would be late for ever.
+constexpr Duration kWheelsGone = std::chrono::seconds(1);
 /// Where a pose is nonsense, metres from the origin either way, and odometry too.
 constexpr double kFarthest_m = 1e6;
 constexpr double kFarthestOdometry_m = 1e7;
@@ -101,7 +103,8 @@ void FrontEnd::note_time(Time t) {
 bool FrontEnd::is_ready(const Scan& scan) const {
   const Time end = scan.stamp + from_seconds(scan.beams.empty() ? 0.0 : scan.beams.back().time_s);
   const bool imu_told = motion_.imu().empty() || motion_.imu().settled() >= end;
-  const bool wheels_told = motion_.odometry().empty() || motion_.odometry().newest() >= end;
+  const bool wheels_told = motion_.odometry().empty() || motion_.odometry().newest() >= end ||
+                           motion_.odometry().newest() + kWheelsGone < scan.stamp;
   return (imu_told && wheels_told) || newest_sample_ > end + kMotionPatience ||
          is_clock_jump(end, newest_sample_);
 }
