@@ -138,9 +138,10 @@ void EventWriter::write_health(Time now) {
   std::vector<DiagnosticStatus> all;
   for (const auto& [name, health] : ports_.device_healths()) {
     const auto now_known = health->get().value;
-    if (now_known && now_known->present) all.push_back(status_of(name, *now_known, now));
+    if (!now_known || !now_known->present) continue;
+    all.push_back(status_of(name, *now_known, now));
     const bool rests = health == &ports_.camera_health && ports_.watchers == 0;
-    if (rests && !all.empty() && all.back().level == Level::kStale) {
+    if (rests && all.back().level == Level::kStale) {
       all.back().level = Level::kOk;
       all.back().message = "rests";
     }
