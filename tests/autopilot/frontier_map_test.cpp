@@ -56,7 +56,8 @@ class Canvas {
 void fill_at_random(Canvas& canvas, std::mt19937& random) {
   const CellIndex low{static_cast<int>(random() % 200) - 130, static_cast<int>(random() % 150) - 80};
   const auto kind = random() % 5;
-  canvas.fill(low, 1 + static_cast<int>(random() % 60), 1 + static_cast<int>(random() % 60),
+  const int width = 1 + static_cast<int>(random() % 60), height = 1 + static_cast<int>(random() % 60);
+  canvas.fill(low, width, height,
               kind < 3    ? CellState::kFree
               : kind == 3 ? CellState::kUnknown
                           : CellState::kOccupied);

@@ -36,7 +36,7 @@ TEST(Pose2, ChainsAndInverts) {
   std::uniform_real_distribution<double> any(-4, 4);
   for (int i = 0; i < 200; ++i) {
     const Pose2 a{any(random), any(random), any(random)}, b{any(random), any(random), any(random)};
-    const Vector2 p(any(random), any(random));
+    const Vector2 p{any(random), any(random)};
     EXPECT_NEAR((((a * b) * p) - (a * (b * p))).norm(), 0, 1e-12);
     EXPECT_THAT(a * a.inverse(), PoseNear(Pose2{}, 1e-12, 1e-12));
     EXPECT_THAT(a.inverse() * (a * b), PoseNear(b, 1e-12, 1e-12));

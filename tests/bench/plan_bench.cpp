@@ -129,7 +129,7 @@ void plan(benchmark::State& state, const Building& building, bool reach) {
   std::uniform_real_distribution<double> x(0, building.width_m), y(0, building.depth_m);
   const auto anywhere = [&] {
     while (true) {
-      const Vector2 at(x(random), y(random));
+      const Vector2 at{x(random), y(random)};
       if (costmap.clearance_m(at) > 0.3) return at;
     }
   };

@@ -38,7 +38,7 @@ TEST(RayWalk, IsConnectedAndEndsWhereItShould) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-5, 5);
   for (int i = 0; i < 2000; ++i) {
-    const Eigen::Vector2d a(any(random), any(random)), b(any(random), any(random));
+    const Eigen::Vector2d a{any(random), any(random)}, b{any(random), any(random)};
     const auto cells = cells_between(a, b, 0.05);
     EXPECT_EQ(cells.front(), cell_at(a, 0.05));
     EXPECT_EQ(cells.back(), cell_at(b, 0.05));

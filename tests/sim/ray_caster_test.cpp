@@ -120,7 +120,8 @@ TEST(RayCaster, FindsWhatBruteForceFinds) {
     RayCaster caster(random_faces(random, 20 + 10 * world), {{-4, -4}, {24, 16}});
     caster.set_moving(random_faces(random, 12));
     for (int i = 0; i < 500; ++i) {
-      SpaceRay ray = ray_from(random.uniform(-1, 21), random.uniform(-1, 13), random.uniform(-kPi, kPi));
+      const double x = random.uniform(-1, 21), y = random.uniform(-1, 13);
+      SpaceRay ray = ray_from(x, y, random.uniform(-kPi, kPi));
       if (i % 3 == 0) ray.slope = random.uniform(-0.1, 0.1);
       if (i % 10 == 0) ray.direction = Vector2(0, i % 20 == 0 ? 1 : -1);  // along the buckets' borders
       if (i % 5 == 0) ray.max_m = random.uniform(0.5, 10.0);
