@@ -58,7 +58,6 @@ std::string centimetres_text(double metres) { return shortest_text(std::round(10
 
 /// What it is about; empty: people drive.
 std::string in_words(const AutopilotStatus& status) {
-  const std::string why = status.reason.empty() ? "" : ": " + status.reason;
   switch (status.phase) {
     case AutopilotPhase::kActive: {
       std::string text = status.mode == AutopilotMode::kExploration ? "explores" : "drives";
@@ -66,12 +65,12 @@ std::string in_words(const AutopilotStatus& status) {
         const Vector2& to = status.goal->point_map;
         text += ", to " + centimetres_text(to.x()) + ", " + centimetres_text(to.y());
       }
-      return text + why;
+      return text;
     }
     case AutopilotPhase::kIdle:
-      return "has nothing to do" + why;
+      return "has nothing to do";
     case AutopilotPhase::kStopped:
-      return "cannot go on" + why;
+      return "cannot go on";
     case AutopilotPhase::kOff:
       break;
   }
@@ -161,12 +160,17 @@ void EventWriter::write_health(Time now) {
 void EventWriter::write_autopilot(Time now, bool is_due) {
   const auto status = ports_.autopilot.get().value;
   if (!status) return;
-  const std::string text = in_words(*status);
-  if (std::exchange(autopilot_told_, text) != text) {
+  const std::string about = in_words(*status);
+  const bool is_on = !about.empty();
+  const bool is_another = std::exchange(autopilot_about_, about) != about;
+  // A reason may name a distance, which changes all the time.
+  if (is_another || (is_due && is_on && autopilot_reason_ != status->reason)) {
+    autopilot_reason_ = status->reason;
     const LogLevel level = status->phase == AutopilotPhase::kStopped ? LogLevel::kWarn : LogLevel::kInfo;
-    ros_.write_log(now, {status->time, level, text.empty() ? "is off" : text}, "autopilot");
+    const std::string why = status->reason.empty() ? "" : ": " + status->reason;
+    ros_.write_log(now, {status->time, level, is_on ? about + why : "is off"}, "autopilot");
   }
-  if (is_due && !text.empty()) ros_.write_route(now, status->route_map);
+  if (is_due && is_on) ros_.write_route(now, status->route_map);
 }
 
 /// Only when a cell has changed since the last one.

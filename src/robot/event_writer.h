@@ -40,7 +40,7 @@ class EventWriter {
   std::optional<BatteryState> battery_;
   std::optional<PoseEstimate> pose_;
   std::optional<std::size_t> map_hash_;
-  std::string autopilot_told_;
+  std::string autopilot_about_, autopilot_reason_;
 };
 
 }  // namespace dynslam
