@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/config_field.h"
@@ -21,6 +22,18 @@ struct HardwareConfig {
   CameraConfig camera;
   GpioConfig gpio;
   EncodersConfig encoders;
+
+  /// What is wrong with a device's values together, or with one's beside another's, if anything.
+  std::optional<std::string> problem() const {
+    for (const auto& problem : {imu.problem(), camera.problem(), gpio.problem(), encoders.problem()})
+      if (problem) return problem;
+    if (gpio.chip != encoders.chip) return std::nullopt;
+    for (const int line :
+         {encoders.left_a_line, encoders.left_b_line, encoders.right_a_line, encoders.right_b_line}) {
+      if (gpio.uses(line)) return "encoders: line " + std::to_string(line) + " is one of gpio's too";
+    }
+    return std::nullopt;
+  }
 
   template <class Self, class Visit>
   static void sections(Self& self, Visit&& visit) {

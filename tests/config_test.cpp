@@ -288,6 +288,14 @@ TEST_F(ConfigFileTest, TakesAnyNameForTheRobotThatCanBeShown) {
             (Lines{"server.name: must be 1 to 40 characters, none of them a control character"}));
 }
 
+TEST_F(ConfigFileTest, TakesALineOfTheHeaderForOneThingOnly) {
+  std::vector<std::string> settings = {"encoders.left_a_line=5", "encoders.left_b_line=6",
+                                       "encoders.right_a_line=13", "encoders.right_b_line=17"};
+  EXPECT_EQ(problems_of(std::nullopt, settings), Lines{});
+  settings.push_back("gpio.estop_line=17");
+  EXPECT_EQ(problems_of(std::nullopt, settings), Lines{"encoders: line 17 is one of gpio's too"});
+}
+
 TEST_F(ConfigFileTest, SaysWhyAFileCannotBeRead) {
   EXPECT_EQ(message_of("/nowhere/x.toml"), "cannot read config /nowhere/x.toml: No such file or directory");
   EXPECT_EQ(message_of("/tmp"), "cannot read config /tmp: is a directory");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <set>
@@ -28,6 +29,14 @@ struct GpioConfig {
   bool lidar_motor_active_low = false;
 
   bool has_pins() const { return estop_line >= 0 || !bumper_lines.empty(); }
+
+  /// Whether one of its lines is that one.
+  bool uses(int line) const {
+    return line >= 0 && (line == estop_line || line == light_line || line == lidar_motor_line ||
+                         std::any_of(bumper_lines.begin(), bumper_lines.end(), [&](const std::string& text) {
+                           return line_number(text) == static_cast<unsigned>(line);
+                         }));
+  }
 
   /// The number of a line that is given as text.
   static std::optional<unsigned> line_number(const std::string& text) {

@@ -171,6 +171,7 @@ void EventWriter::write_autopilot(Time now, bool is_due) {
     ros_.write_log(now, {status->time, level, is_on ? about + why : "is off"}, "autopilot");
   }
   if (is_due && is_on) ros_.write_route(now, status->route_map);
+  if (is_another && !is_on) ros_.write_route(now, {});
 }
 
 /// Only when a cell has changed since the last one.

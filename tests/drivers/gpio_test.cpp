@@ -332,6 +332,14 @@ TEST(GpioConfig, LinesAreNumbers) {
   EXPECT_EQ(config.problem(), "gpio.pull: not 'up', 'down' or 'none'");
 }
 
+TEST(GpioConfig, KnowsItsLines) {
+  GpioConfig config;
+  config.estop_line = 17;
+  config.bumper_lines = {"27", "22"};
+  for (const int line : {17, 22, 27}) EXPECT_TRUE(config.uses(line)) << line;
+  for (const int line : {-1, 0, 5}) EXPECT_FALSE(config.uses(line)) << line;
+}
+
 TEST(EncodersConfig, HasAllFourLinesOrNone) {
   EncodersConfig config;
   EXPECT_EQ(config.problem(), std::nullopt);

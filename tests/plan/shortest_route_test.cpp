@@ -20,7 +20,8 @@ DrawnFloor random_posts(std::mt19937& random) {
   std::uniform_real_distribution<double> at(0.1, kSide_m - 0.6), side(0.02, 0.7);
   for (int i = 0; i < 9; ++i) {
     const double x = at(random), y = at(random);
-    floor.occupy(x, y, std::min(kSide_m, x + side(random)), std::min(kSide_m, y + side(random)));
+    const double width = side(random), height = side(random);
+    floor.occupy(x, y, std::min(kSide_m, x + width), std::min(kSide_m, y + height));
   }
   return floor;
 }

@@ -288,6 +288,23 @@ TEST(Slam, WaitsForTheImuButNotForEver) {
   EXPECT_TRUE(drive.slam.next(true));
 }
 
+TEST(Slam, WaitsForItsWheelsButNotForThoseThatAreLongSilent) {
+  Drive drive;
+  const auto wheels = [&](double t_s) { drive.slam.add(OdometrySample{time_at_s(t_s), {}}); };
+  wheels(0.5);
+  drive.scan(0.48);  // lasts until 0.56
+  EXPECT_FALSE(drive.slam.next());
+  wheels(0.56);
+  EXPECT_TRUE(drive.slam.next());
+  drive.scan(0.58);  // and now they fall silent
+  EXPECT_FALSE(drive.slam.next());
+  drive.scan(0.88);
+  EXPECT_TRUE(drive.slam.next());
+  EXPECT_TRUE(drive.slam.next(true));
+  drive.scan(1.98);
+  EXPECT_TRUE(drive.slam.next()) << "nor are they waited for again";
+}
+
 TEST(Slam, PassesOverScansOutOfOrderAndFollowsAClockSetBack) {
   Drive drive;
   drive.scan(10.0);
