@@ -6,7 +6,9 @@
 #include <functional>
 #include <sstream>
 #include <thread>
+#include <vector>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -25,11 +27,18 @@ constexpr double kPatience_s = 30.0;
 /// A command in a process of its own, stopped at the end.
 class Process {
  public:
-  Process(const std::string& command, std::string said) : said_(std::move(said)) {
+  /// Not by way of a shell: what is preloaded into it may not bear that.
+  Process(std::vector<std::string> words, std::string said) : said_(std::move(said)) {
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
     pid_ = ::fork();
     if (pid_ != 0) return;
-    const std::string line = "exec " + command + " >'" + said_ + "' 2>&1 </dev/null";
-    ::execl("/bin/sh", "sh", "-c", line.c_str(), static_cast<char*>(nullptr));
+    const int out = ::open(said_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+    ::dup2(out, STDOUT_FILENO);
+    ::dup2(out, STDERR_FILENO);
+    ::execv(argv[0], argv.data());
     ::_exit(127);
   }
   ~Process() {
@@ -70,8 +79,7 @@ class RunCommand : public ::testing::Test {
     return path;
   }
   Process dynslam(const std::string& command) {
-    return {std::string(DYNSLAM_BINARY) + " " + command + " --config '" + config_file() + "'",
-            hardware_.folder() + "/said.txt"};
+    return {{DYNSLAM_BINARY, command, "--config", config_file()}, hardware_.folder() + "/said.txt"};
   }
   bool comes_true(const std::function<bool()>& what) const {
     const Time end = hardware_.clock.now() + from_seconds(kPatience_s);
