@@ -79,7 +79,7 @@ void judge_target(const FinishedMap& target, const FinishedMap& source, std::siz
 /// Least over greatest eigenvalue of the x, y part.
 double roundness_of(const Eigen::Matrix3d& information) {
   const double mean = 0.5 * (information(0, 0) + information(1, 1));
-  const double spread = std::hypot(0.5 * (information(0, 0) - information(1, 1)), information(0, 1));
+  const double spread = Vector2(0.5 * (information(0, 0) - information(1, 1)), information(0, 1)).norm();
   return mean + spread > 0 ? std::max(0.0, mean - spread) / (mean + spread) : 0.0;
 }
 

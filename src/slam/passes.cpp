@@ -37,7 +37,8 @@ void level_pass(const Scan& scan, const TiltInScan& tilt, const HeightBand& band
       const float leaves_m = (way.z() < 0 ? down : up) / std::max(std::abs(way.z()), 1e-6F);
       ray.hit = ray.hit && ray.range_m <= leaves_m;
       ray.range_m = std::min(ray.range_m, leaves_m) * std::hypot(way.x(), way.y());
-      ray.angle_rad = std::atan2(way.y(), way.x()) - mount;
+      const Eigen::Vector2d ahead = way.head<2>().cast<double>();
+      ray.angle_rad = static_cast<float>(std::atan2(ahead.y(), ahead.x())) - mount;
     }
   }
 }

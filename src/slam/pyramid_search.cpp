@@ -124,7 +124,7 @@ bool PyramidSearch::is_too_near(const Strip& strip, int lane) const {
   const int left = strip.x + lane * side - keep_away_->x, low = strip.y - keep_away_->y;
   const double dx = std::max(std::abs(left), std::abs(left + side - 1)),
                dy = std::max(std::abs(low), std::abs(low + side - 1));
-  return std::hypot(dx, dy) * target_.cell_size_m() <= config_.rival_m;
+  return Vector2(dx, dy).norm() * target_.cell_size_m() <= config_.rival_m;
 }
 
 std::vector<PyramidSearch::Strip> PyramidSearch::top_strips() {

@@ -84,7 +84,7 @@ std::optional<SurfaceFit::Line> SurfaceFit::line_near(const Vector2& at) const {
   if (neighbours < kLeastNeighbours) return std::nullopt;
   const double mx = sx / n, my = sy / n;
   const double a = sxx / n - mx * mx, b = sxy / n - mx * my, c = syy / n - my * my;
-  const double mean = 0.5 * (a + c), spread = std::hypot(0.5 * (a - c), b);
+  const double mean = 0.5 * (a + c), spread = Vector2(0.5 * (a - c), b).norm();
   if (mean - spread > kMostBreadth * (mean + spread)) return std::nullopt;
   const double along = 0.5 * std::atan2(2 * b, a - c);
   return Line{{at.x() + mx, at.y() + my}, {-std::sin(along), std::cos(along)}};
