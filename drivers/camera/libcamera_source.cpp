@@ -269,16 +269,18 @@ void LibcameraSource::queue_again(lc::Request* request) {
 
 }  // namespace
 
-std::vector<CameraInfo> list_cameras() {
-  std::vector<CameraInfo> all;
+// What camera_module.cpp looks for; it takes what is thrown, too.
+extern "C" {
+
+void dynslam_list_cameras(std::vector<CameraInfo>& all) {
   for (const auto& camera : manager().cameras()) all.push_back(info_of(*camera));
-  return all;
 }
 
-std::unique_ptr<FrameSource> open_libcamera(const CameraConfig& config) {
+void dynslam_open_camera(const CameraConfig& config, std::unique_ptr<FrameSource>& opened) {
   auto source = std::make_unique<LibcameraSource>();
   source->begin(config);
-  return source;
+  opened = std::move(source);
+}
 }
 
 }  // namespace dynslam

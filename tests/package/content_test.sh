@@ -20,7 +20,9 @@ echo "depends on $(dpkg-deb --field "$deb" Depends)"
 symbols=dynslam-dbgsym_${deb##*/dynslam_}
 [[ -s $(dirname "$deb")/${symbols%deb}ddeb ]] || fail "the debugger's symbols are beside it"
 dpkg-deb --field "$deb" Depends | grep -q 'libc6.*libstdc++6' || fail "it depends on the libraries that it is linked with"
-! strings "$tree/usr/bin/dynslam" | grep -F "$PWD/" || fail "it does not say where it was built"
+[[ -s $tree/usr/lib/dynslam/camera.so ]] || fail "the part for cameras is in it"
+dpkg-deb --field "$deb" Depends | grep -q libcamera || fail "it depends on that part's libraries"
+! strings "$tree/usr/bin/dynslam" "$tree/usr/lib/dynslam/camera.so" | grep -F "$PWD/" || fail "it does not say where it was built"
 for unit in dynslam dynslam-tls; do
   exposure=$(systemd-analyze security --offline=true --no-pager "$tree/usr/lib/systemd/system/$unit.service" 2>/dev/null |
     sed -n 's/.*exposure level for .*: \([0-9.]*\) .*/\1/p')

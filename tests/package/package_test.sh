@@ -57,6 +57,8 @@ test_install() {
   check "all files are root's, and nobody else may write to them" \
     inside sh -c 'test -z "$(dpkg -L dynslam | xargs -d "\n" -I{} find {} -maxdepth 0 \( ! -user root -o ! -type l -perm /022 \))"'
   check "the program runs" inside dynslam --version
+  check "its part for cameras can be loaded" inside sh -c \
+    "dynslam probe | grep -q '^camera .*there is none: is its cable'"
   check "its settings are in order" inside dynslam check-config /etc/dynslam/dynslam.toml
   for group in dialout gpio i2c video; do
     check "dynslam is in the group $group" inside sh -c "id -nG dynslam | grep -qw $group"
