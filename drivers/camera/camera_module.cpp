@@ -3,6 +3,7 @@
 // not pay for it.
 #include <filesystem>
 #include <mutex>
+#include <system_error>
 
 #include <dlfcn.h>
 
@@ -19,11 +20,12 @@ void* camera_module() {
   const std::lock_guard lock(mutex);
   if (loaded) return loaded;
   // Beside the program as it is installed, and as programs lie where they were built.
-  const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  std::error_code none;
+  const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
   std::string why;
   for (const char* folder : {"../lib/dynslam", "../../lib/dynslam"}) {
     const std::filesystem::path file = here / folder / "camera.so";
-    if (!std::filesystem::exists(file)) continue;
+    if (!std::filesystem::exists(file, none)) continue;
     loaded = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (loaded) return loaded;
     why = ::dlerror();
