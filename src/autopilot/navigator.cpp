@@ -144,8 +144,7 @@ bool Navigator::is_better(const Plan& plan, const Costmap& costmap, const Follow
 }
 
 Navigator::Report Navigator::wait(Time now, const std::string& reason, double most_s) {
-  if (!held_up_since_ || now < *held_up_since_ || most_s != held_up_for_s_) held_up_since_ = now;
-  held_up_for_s_ = most_s;  // another patience: it waits for something else now
+  if (!held_up_since_ || now < *held_up_since_) held_up_since_ = now;
   const double patience_s = std::min({patience_s_, most_s, had_route_ ? patience_s_ : kFirstPatience_s});
   if (now - *held_up_since_ > from_seconds(patience_s)) return end(State::kNoRoute, reason);
   return {State::kWaiting, reason};

@@ -92,7 +92,6 @@ class Navigator {
   std::optional<Plan> last_plan_;
   std::optional<Time> planned_at_;
   std::optional<Time> held_up_since_;
-  double held_up_for_s_ = 0.0;  ///< at most, for what holds it up
   std::optional<DriveTask> task_;
 };
 
