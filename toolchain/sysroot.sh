@@ -76,7 +76,7 @@ case $from in
   *) copy_pi ;;
 esac
 # An emulated program would take these for its devices.
-rm -rf --one-file-system "$sysroot/dev"
+rm -rf --one-file-system "${sysroot:?}/dev"
 move_lists
 # Links to /lib/... would lead to this machine's own libraries.
 find "$sysroot/$libraries" -lname '/*' | while read -r link; do
