@@ -74,7 +74,8 @@ Config make_config(const std::optional<std::string>& path, const std::vector<std
     for (const auto& problem :
          {config.slam.problem(), config.drive.clearance.problem(), config.drive.follower.problem(),
           config.server.problem(), config.access.problem(), config.autopilot.problem(),
-          config.planner.problem(), config.hardware.problem()})
+          config.planner.problem(), config.hardware.imu.problem(), config.hardware.camera.problem(),
+          config.hardware.gpio.problem(), config.hardware.encoders.problem(), config.hardware.problem()})
       if (problem) problems.push_back(*problem);
   if (!problems.empty()) throw ConfigError(std::move(problems));
   return config;

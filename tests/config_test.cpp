@@ -294,6 +294,9 @@ TEST_F(ConfigFileTest, TakesALineOfTheHeaderForOneThingOnly) {
   EXPECT_EQ(problems_of(std::nullopt, settings), Lines{});
   settings.push_back("gpio.estop_line=17");
   EXPECT_EQ(problems_of(std::nullopt, settings), Lines{"encoders: line 17 is one of gpio's too"});
+  settings.push_back("gpio.pull=sideways");
+  EXPECT_EQ(problems_of(std::nullopt, settings),
+            (Lines{"gpio.pull: not 'up', 'down' or 'none'", "encoders: line 17 is one of gpio's too"}));
 }
 
 TEST_F(ConfigFileTest, SaysWhyAFileCannotBeRead) {

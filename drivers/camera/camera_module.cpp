@@ -3,6 +3,7 @@
 // not pay for it.
 #include <filesystem>
 #include <mutex>
+#include <string>
 #include <system_error>
 
 #include <dlfcn.h>

@@ -24,7 +24,7 @@ struct DeviceHealth {
 /// uses the device.
 class HealthKeeper {
  public:
-  /// Shows at once whether there is a device: it may be null. Both must outlive this.
+  /// Shows at once that there is a device; null: there is none, and nothing is shown. Both must outlive this.
   HealthKeeper(const Device* device, Latest<DeviceHealth>& shown);
 
   void answered(Time stamp);
