@@ -136,7 +136,8 @@ RplidarReport Rplidar::report() const {
 std::string Rplidar::about() const {
   const Portrait& device = start_.portrait();
   if (!device.info) return {};
-  std::string text = device.info->model_name() + ", firmware " + device.info->firmware() + ", " + device.port;
+  std::string text = device.info->model_name() + ", firmware " + device.info->firmware() + ", " +
+                     std::to_string(device.baud) + " baud";
   if (device.mode) text += ", mode " + device.mode->name;
   return text;
 }
