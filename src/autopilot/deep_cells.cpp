@@ -37,7 +37,7 @@ void in_doubling_steps(int side, Step&& step) {
 
 /// First each cell stands for the square of which it is the lower left corner, then the squares are drawn.
 void keep_deep(ChunkWindow& cells, int side) {
-  const int low = kChunkSide - side, high = 2 * kChunkSide + side;
+  const int low = kChunkSide - side - kBeside, high = 2 * kChunkSide + side + kBeside;
   const auto row = [&](int r) -> WideRow& { return cells[static_cast<std::size_t>(r)]; };
   in_doubling_steps(side, [&](int n) {
     for (int r = low; r < high; ++r) keep_common(row(r), moved_left(row(r), n));
@@ -47,6 +47,20 @@ void keep_deep(ChunkWindow& cells, int side) {
     for (int r = low; r < high; ++r) add(row(r), moved_right(row(r), n));
     for (int r = high - 1; r >= low + n; --r) add(row(r), row(r - n));
   });
+}
+
+void grow(ChunkWindow& cells, const ChunkWindow& within, int steps) {
+  for (int step = 0; step < steps; ++step) {
+    const ChunkWindow before = cells;
+    for (std::size_t r = 1; r + 1 < cells.size(); ++r) {
+      WideRow& row = cells[r];
+      add(row, moved_left(before[r], 1));
+      add(row, moved_right(before[r], 1));
+      add(row, before[r - 1]);
+      add(row, before[r + 1]);
+      keep_common(row, within[r]);
+    }
+  }
 }
 
 CellTile middle_of(const ChunkWindow& cells) {

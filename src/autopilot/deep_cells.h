@@ -13,12 +13,16 @@ namespace dynslam {
 using WideRow = std::array<std::uint64_t, 3>;
 using ChunkWindow = std::array<WideRow, 3 * kChunkSide>;
 
-inline constexpr int kMostDepth = 32;  ///< cells
+inline constexpr int kMostDepth = 32, kBeside = 4;  ///< cells
 
 /// Leaves the cells that lie in some square of `side` cells all of which are in the set (the opening of the
-/// set by that square). Holds for the middle chunk and the cells beside it. REQUIRES: 1 <= side <=
+/// set by that square). Holds for the middle chunk and for kBeside cells around it. REQUIRES: 1 <= side <=
 /// kMostDepth.
 void keep_deep(ChunkWindow& cells, int side);
+
+/// Adds the cells of `within` beside those in the set, `steps` times over. Holds where both held, but for as
+/// many cells along the edge.
+void grow(ChunkWindow& cells, const ChunkWindow& within, int steps);
 
 /// What of the middle chunk is in the set.
 CellTile middle_of(const ChunkWindow& cells);

@@ -13,6 +13,9 @@ namespace dynslam {
 namespace {
 
 constexpr CellTile kClear{};
+/// Cells. Beams that end here and there leave the edge of the unknown ragged: too thin for what is deep.
+constexpr int kRim = 2;
+static_assert(kRim < kBeside);
 
 constexpr CellTile full_tile() {
   CellTile tile{};
@@ -114,7 +117,7 @@ void FrontierMap::look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIn
   if (!is_clear(lost)) forgotten_[index] = both(forgotten_[index], lost);
   now.unknown = without(now.unknown, forgotten(index));
   add(chunks_near_difference(index, now.free, before.free, width_ - 1), due);
-  add(chunks_near_difference(index, now.unknown, before.unknown, depth_), due);
+  add(chunks_near_difference(index, now.unknown, before.unknown, depth_ + kRim), due);
   if (chunk) {
     known_[index] = now;
   } else {
@@ -134,7 +137,7 @@ void FrontierMap::grow_old(Time now, std::set<ChunkIndex>& due) {
     const CellTile back = without(cells, forgotten(index));
     const CellTile before = at->second.unknown;
     at->second.unknown = both(before, common(cells_in_state(*chunk, CellState::kUnknown), back));
-    add(chunks_near_difference(index, at->second.unknown, before, depth_), due);
+    add(chunks_near_difference(index, at->second.unknown, before, depth_ + kRim), due);
   }
 }
 
@@ -171,7 +174,10 @@ void FrontierMap::redo(ChunkIndex index) {
   ChunkWindow unknown = around(index, &Known::unknown);
   if (is_clear(common(all_free, beside(unknown)))) return;
   ChunkWindow free = around(index, &Known::free);
+  ChunkWindow rim = unknown;
+  keep_deep(rim, width_);
   keep_deep(unknown, depth_);
+  grow(unknown, rim, kRim);
   keep_deep(free, width_);
   const CellTile cells = common(middle_of(free), beside(unknown));
   if (!is_clear(cells)) cells_[index] = cells;

@@ -18,9 +18,10 @@ namespace dynslam {
 /// Keeps up with a map which of its cells are frontier cells: free cells beside (left, right, above, below)
 /// the unknown (thesis 6.6). The unknown counts where a square of `least_depth_m` fits into it: what is
 /// missed along walls and between beams is no frontier, nor is anything that the robot would not fit into.
-/// What was occupied a moment ago and is unknown now counts as occupied for a while: where people walked
-/// along a wall the map forgets both. The free counts where a square of `least_width_m` fits into it: a lone
-/// ray that went through a wall is no way. Chunks that do not exist are unknown.
+/// Its ragged edge counts with it: two cells around, as far as a square of `least_width_m` fits. What was
+/// occupied a moment ago and is unknown now counts as occupied for a while: where people walked along a wall
+/// the map forgets both. The free counts where a square of `least_width_m` fits into it: a lone ray that went
+/// through a wall is no way. Chunks that do not exist are unknown.
 ///
 /// Memory: 1.1 KB a chunk, and the snapshot that was seen last. One thread.
 class FrontierMap {

@@ -56,8 +56,8 @@ TEST(DeepCells, AreThoseOfSquaresThatFit) {
     ChunkWindow deep = cells;
     keep_deep(deep, side);
     int kept = 0, lost = 0;
-    for (int y = kChunkSide - 1; y <= 2 * kChunkSide; ++y) {
-      for (int x = kChunkSide - 1; x <= 2 * kChunkSide; ++x) {
+    for (int y = kChunkSide - kBeside; y < 2 * kChunkSide + kBeside; ++y) {
+      for (int x = kChunkSide - kBeside; x < 2 * kChunkSide + kBeside; ++x) {
         ASSERT_EQ(test(deep, x, y), expected[static_cast<std::size_t>(y * kSide + x)])
             << side << ": " << x << " " << y;
         kept += test(deep, x, y) ? 1 : 0;
@@ -66,6 +66,35 @@ TEST(DeepCells, AreThoseOfSquaresThatFit) {
     }
     EXPECT_GT(kept, 0) << side;
     EXPECT_EQ(lost > 0, side > 1) << side;
+  }
+}
+
+TEST(DeepCells, GrowWithinWhatIsThere) {
+  std::mt19937 random(3);
+  const ChunkWindow within = random_window(random, 2000);
+  ChunkWindow cells = within;
+  keep_deep(cells, 4);
+  for (const int steps : {0, 1, 2, 3}) {
+    ChunkWindow grown = cells;
+    grow(grown, within, steps);
+    ChunkWindow expected = cells;
+    for (int step = 0; step < steps; ++step) {
+      const ChunkWindow before = expected;
+      for (int y = 1; y + 1 < kSide; ++y) {
+        for (int x = 1; x + 1 < kSide; ++x) {
+          const bool is_beside = test(before, x - 1, y) || test(before, x + 1, y) || test(before, x, y - 1) ||
+                                 test(before, x, y + 1);
+          if (is_beside && test(within, x, y))
+            expected[static_cast<std::size_t>(y)][static_cast<std::size_t>(x / kChunkSide)] |=
+                std::uint64_t{1} << (x % kChunkSide);
+        }
+      }
+    }
+    for (int y = kChunkSide - 1; y <= 2 * kChunkSide; ++y) {
+      for (int x = kChunkSide - 1; x <= 2 * kChunkSide; ++x)
+        ASSERT_EQ(test(grown, x, y), test(expected, x, y)) << steps << ": " << x << " " << y;
+    }
+    EXPECT_EQ(middle_of(grown) == middle_of(cells), steps == 0);
   }
 }
 

@@ -84,9 +84,21 @@ std::set<CellIndex> squares(const GridSnapshot& map, CellState state, int side) 
   return cells;
 }
 
+/// The cells of `within` beside a cell of the set too.
+std::set<CellIndex> grown(const std::set<CellIndex>& cells, const std::set<CellIndex>& within) {
+  std::set<CellIndex> all = cells;
+  for (const CellIndex c : within) {
+    if (cells.contains({c.x - 1, c.y}) || cells.contains({c.x + 1, c.y}) || cells.contains({c.x, c.y - 1}) ||
+        cells.contains({c.x, c.y + 1}))
+      all.insert(c);
+  }
+  return all;
+}
+
 /// Cell by cell, row by row, as the definition says.
 std::vector<CellIndex> frontier_cells_one_by_one(const GridSnapshot& map, int depth, int width) {
-  const std::set<CellIndex> unknown = squares(map, CellState::kUnknown, depth);
+  const std::set<CellIndex> ragged = squares(map, CellState::kUnknown, width);
+  const std::set<CellIndex> unknown = grown(grown(squares(map, CellState::kUnknown, depth), ragged), ragged);
   std::vector<CellIndex> cells;
   for (const CellIndex c : squares(map, CellState::kFree, width)) {
     if (unknown.contains({c.x - 1, c.y}) || unknown.contains({c.x + 1, c.y}) ||
@@ -124,12 +136,27 @@ TEST(FrontierMap, WhatIsForgottenIsNoFrontierForAWhile) {
   EXPECT_FALSE(frontiers.is_frontier({19, 25}));
 }
 
+TEST(FrontierMap, TheEdgeOfTheUnknownMayBeRagged) {
+  Canvas canvas;
+  canvas.fill({0, 0}, 40, 40, CellState::kFree);
+  canvas.fill({10, 40}, 20, 2, CellState::kFree);
+  canvas.fill({16, 40}, 8, 2, CellState::kUnknown);  // two cells deep: too shallow on its own
+  FrontierMap frontiers(with_depth(5, 2));
+  update_for_good(frontiers, canvas.grid.snapshot());
+  EXPECT_TRUE(frontiers.is_frontier({12, 41}));
+  EXPECT_TRUE(frontiers.is_frontier({20, 39})) << "it lies before what is deep";
+  EXPECT_FALSE(frontiers.is_frontier({20, 38}));
+  canvas.fill({0, 42}, 40, 1, CellState::kOccupied);
+  update_for_good(frontiers, canvas.grid.snapshot());
+  EXPECT_FALSE(frontiers.is_frontier({20, 39})) << "it lies before a wall";
+}
+
 TEST(FrontierMap, KeepsUpWithAChangingMap) {
   std::mt19937 random(3);
   for (const auto& [depth, width] : {std::pair{1, 1}, {5, 1}, {1, 3}, {4, 3}}) {
     Canvas canvas;
     FrontierMap frontiers(with_depth(depth, width));
-    for (int round = 0; round < 4; ++round) {
+    for (int round = 0; round < 6; ++round) {
       for (auto n = 1 + random() % 3; n > 0; --n) fill_at_random(canvas, random);
       const GridSnapshot map = canvas.grid.snapshot();
       update_for_good(frontiers, map);
