@@ -41,8 +41,8 @@ struct AutopilotConfig {
     visit(Field{"patience_s", "lost or without a sensor for so long, it gives up", 1.0, 3600.0},
           self.patience_s);
     visit(Field{"door_patience_s",
-                "so long it hopes that a door opens again behind which something is left to explore", 0.0,
-                86400.0},
+                "so long, all in all, it hopes that doors open behind which something is left to explore",
+                0.0, 86400.0},
           self.door_patience_s);
     visit(Field{"choose_every_s", "so often it looks for a better place to explore", 0.1, 60.0},
           self.choose_every_s);

@@ -10,6 +10,8 @@ namespace {
 
 /// Whether a door has opened is looked at when all else is done.
 constexpr double kShutOffCost_m = 1000.0;
+/// What is left of a frontier after a look from near is hardly worth another unless it is as wide as this.
+constexpr double kWide_m = 1.0;
 /// So many history cells are told of: the first of them is what matters.
 constexpr std::size_t kMostCells = 16;
 
@@ -90,9 +92,10 @@ std::vector<Exploration::Ranked> Exploration::frontiers_reached(Time now, std::s
   left_out_ = {};
   std::vector<Ranked> found;
   for (const Frontier& f : frontiers) {
-    if (!f.middle_map.allFinite() || !is_steady(now, f.middle_map) || is_left_alone(now, f)) continue;
+    if (!f.middle_map.allFinite() || !is_steady(now, f.middle_map)) continue;
     std::optional<Vector2> stand_map = reach.nearest(f.middle_map, config_.stand_within_m);
     const bool is_shut_off = !stand_map;
+    if (is_left_alone(now, f, is_shut_off)) continue;
     if (is_shut_off) ++left_out_.out_of_reach;
     if (is_shut_off && f.extent_m >= kDoor_m && !was_looked_at(f.middle_map)) {
       stand_map = reach.before_door(f.middle_map);
@@ -101,10 +104,11 @@ std::vector<Exploration::Ranked> Exploration::frontiers_reached(Time now, std::s
     const std::optional<double> route_m = stand_map ? route_to(*stand_map, reach) : std::nullopt;
     if (!route_m) continue;
     const TriedPlaces::Tried* tried = frontiers_.find(f.middle_map);
-    const double later_m =
-        (is_shut_off ? kShutOffCost_m : 0.0) + (tried ? config_.retry_cost_m * tried->tries : 0.0);
-    found.push_back({*route_m - config_.gain_weight * f.extent_m + later_m,
-                     {PlaceKind::kFrontier, f.middle_map, *stand_map, *route_m, f.extent_m, is_shut_off}});
+    const int tries = tried ? tried->tries : 0;
+    const double later_m = (is_shut_off ? kShutOffCost_m : 0.0) + config_.retry_cost_m * tries;
+    found.push_back(
+        {*route_m - config_.gain_weight * f.extent_m + later_m,
+         {PlaceKind::kFrontier, f.middle_map, *stand_map, *route_m, f.extent_m, is_shut_off, tries}});
   }
   return found;
 }
@@ -130,16 +134,19 @@ bool Exploration::is_steady(Time now, const Vector2& middle_map) const {
          (seen->since == Time::min() || now - seen->since >= from_seconds(config_.steady_s));
 }
 
-bool Exploration::is_left_alone(Time now, const Frontier& frontier) {
+/// A door that opened again is not left alone.
+bool Exploration::is_left_alone(Time now, const Frontier& frontier, bool is_shut_off) {
   const TriedPlaces::Tried* tried = frontiers_.find(frontier.middle_map);
   if (!tried) return false;
-  if (tried->tries >= (once_ && !tried->may_open ? 1 : config_.most_tries)) {
+  const bool is_once_enough = tried->last_try == InVain::kSeen && (once_ || frontier.extent_m < kWide_m);
+  if (tried->tries >= (is_once_enough ? 1 : config_.most_tries)) {
     ++left_out_.given_up;
     return true;
   }
-  if (tried->until <= now) return false;
+  if (tried->until <= now || (tried->last_try == InVain::kShut && !is_shut_off)) return false;
   ++left_out_.waiting;
-  if (tried->may_open) left_out_.next = std::min(left_out_.next.value_or(tried->until), tried->until);
+  if (tried->last_try != InVain::kSeen)
+    left_out_.next = std::min(left_out_.next.value_or(tried->until), tried->until);
   return true;
 }
 
@@ -218,27 +225,23 @@ void Exploration::failed(Time now, const Place& place) {
 
 bool Exploration::was_looked_at(const Vector2& frontier_map) const {
   const TriedPlaces::Tried* tried = frontiers_.find(frontier_map);
-  return tried && tried->tries > 0 && !tried->may_open;
-}
-
-void Exploration::tried_in_vain(Time now, const Place& place, bool may_open) {
-  chosen_.reset();
-  if (place.point_map.allFinite())
-    frontiers_.add(now, place.point_map, from_seconds(config_.retry_after_s), may_open);
+  return tried && tried->tries > 0 && tried->last_try == InVain::kSeen;
 }
 
 /// A frontier that comes back where it was is one of those that flicker at the edge of what can be seen.
 void Exploration::vanished(Time now, const Place& place) {
   chosen_.reset();
   if (place.kind == PlaceKind::kFrontier && place.point_map.allFinite())
-    frontiers_.add(now, place.point_map, Duration(0), false);
+    frontiers_.add(now, place.point_map, Duration(0), InVain::kSeen);
 }
 
 void Exploration::reached(Time now, const Place& place) {
-  if (place.kind == PlaceKind::kFrontier) return tried_in_vain(now, place, place.is_shut_off);
   if (place.kind == PlaceKind::kUnvisited) return failed(now, place);
   chosen_.reset();
-  if (place.point_map.allFinite()) cells_.rest(now, place.point_map, from_seconds(config_.retry_after_s));
+  if (!place.point_map.allFinite()) return;
+  const Duration retry = from_seconds(config_.retry_after_s);
+  if (place.kind == PlaceKind::kOld) return cells_.rest(now, place.point_map, retry);
+  frontiers_.add(now, place.point_map, retry, place.is_shut_off ? InVain::kShut : InVain::kSeen);
 }
 
 }  // namespace dynslam

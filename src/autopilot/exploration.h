@@ -27,6 +27,7 @@ struct Place {
   double route_m = 0.0;      ///< how long it is
   double gain = 0.0;         ///< metres of frontier to be seen
   bool is_shut_off = false;  ///< seen once, but there is no way to it: a door may open
+  int tries = 0;             ///< in vain
 };
 
 /// What exploring asks of a planner.
@@ -60,8 +61,8 @@ struct LeftOut {
 
 /// Chooses where to go next to learn the most (thesis 6.6): to frontiers first, then to history cells where
 /// the robot never was, then to those where it was longest ago. What was tried in vain is left alone for a
-/// while, then comes after what is new; frontiers that stay after `most_tries` are given up, so that what
-/// cannot be seen does not attract for ever. Pure; one thread.
+/// while, then comes after what is new; frontiers that stay after `most_tries` are given up, small ones after
+/// one look from near, so that what cannot be seen does not attract for ever. Pure; one thread.
 class Exploration {
  public:
   explicit Exploration(const ExplorationConfig& config = {})
@@ -103,10 +104,9 @@ class Exploration {
   std::vector<Ranked> unvisited_places(Time now, const Vector2& robot_map, const VisitMap& visits,
                                        const GridSnapshot& map, const Reachability& reach) const;
   std::vector<Ranked> old_places(Time now, const VisitMap& visits, const Reachability& reach) const;
-  void tried_in_vain(Time now, const Place& place, bool may_open);
   void see(Time now, std::span<const Frontier> frontiers);
   bool is_steady(Time now, const Vector2& middle_map) const;
-  bool is_left_alone(Time now, const Frontier& frontier);
+  bool is_left_alone(Time now, const Frontier& frontier, bool is_shut_off);
   void stay_with_chosen(std::vector<Ranked>& found) const;
 
   ExplorationConfig config_;

@@ -57,7 +57,11 @@ struct ExplorationConfig {
           self.retry_after_s);
     visit(Field{"retry_cost_m", "and after that counts as so much farther away for each time", 0.0, 1000.0},
           self.retry_cost_m);
-    visit(Field{"most_tries", "after so many it is given up", 1, 1000}, self.most_tries);
+    visit(
+        Field{"most_tries",
+              "after so many it is given up; after one where it was looked at and less than 1 m of it stayed",
+              1, 1000},
+        self.most_tries);
     visit(Field{"revisit_after_s", "where the robot was so long ago, it goes again", 0.0, 1e6},
           self.revisit_after_s);
   }

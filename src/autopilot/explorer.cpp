@@ -54,8 +54,10 @@ void Explorer::begin() {
   once_reachable_.clear();
   shut_.clear();
   seems_over_since_.reset();
+  judged_at_.reset();
+  hope_left_ = from_seconds(config_.door_patience_s);
   over_ = false;
-  last_look_ = false;
+  seemed_over_ = last_look_ = false;
 }
 
 bool Explorer::choose(Time now, const Vector2& robot_map, const Costmap& costmap, PathPlanner& planner) {
@@ -64,7 +66,8 @@ bool Explorer::choose(Time now, const Vector2& robot_map, const Costmap& costmap
   } else if (!aim_seen_since_ || now < *aim_seen_since_) {
     aim_seen_since_ = now;
   }
-  if (aim_seen_since_ && now - *aim_seen_since_ >= kGone) {
+  if (aim_seen_since_) {
+    if (now - *aim_seen_since_ < kGone) return false;
     exploration_.vanished(now, *aim_);
     aim_.reset();
     aim_seen_since_.reset();
@@ -112,7 +115,7 @@ void Explorer::find_places(Time now, const Vector2& robot_map, const Costmap& co
       [&](const Vector2& point) { return lengths->nearest_reached(point, kBeforeDoor_m); },
       [&] { return looked_m; }, look_farther};
   const std::vector<Frontier> frontiers = frontier_map_.frontiers(last_look_);
-  places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach, last_look_);
+  places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach, seemed_over_);
   remember_reachable();
   shut_.clear();
   for (const Frontier& f : frontiers) {
@@ -147,18 +150,23 @@ void Explorer::remember_reachable() {
 }
 
 /// It is over when for some time there was nothing to go to for the first time. Whoever stands in a doorway
-/// goes on soon; a door that was shut behind the robot is waited for longer.
+/// goes on soon; for doors that are shut it hopes longer, all in all.
 void Explorer::judge(Time now) {
-  if (has_frontier() || exploration_.left_out().next) {
+  const bool has_news = has_frontier() && !(places_.front().is_shut_off && places_.front().tries > 0);
+  const bool hopes = has_frontier() || waits_for_door() || exploration_.left_out().next;
+  const Duration since_last = judged_at_ && *judged_at_ <= now ? now - *judged_at_ : Duration(0);
+  judged_at_ = now;
+  if (has_news) {
     seems_over_since_.reset();
+    if (places_.front().gain >= kDoor_m) last_look_ = false;
   } else if (!seems_over_since_ || now < *seems_over_since_) {
     seems_over_since_ = now;
-    last_look_ = true;
+    seemed_over_ = last_look_ = true;
+  } else if (hopes) {
+    hope_left_ -= std::min(since_last, kSure);
   }
-  const Duration patience = waits_for_door()                      ? from_seconds(config_.door_patience_s)
-                            : exploration_.left_out().cut_off > 0 ? kWayFree
-                                                                  : kSure;
-  over_ = seems_over_since_ && now - *seems_over_since_ >= patience;
+  const Duration patience = exploration_.left_out().cut_off > 0 ? kWayFree : kSure;
+  over_ = seems_over_since_ && now - *seems_over_since_ >= patience && !(hopes && hope_left_ > Duration(0));
 }
 
 void Explorer::reached(Time now) {

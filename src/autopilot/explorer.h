@@ -63,9 +63,11 @@ class Explorer {
   std::optional<Time> chosen_at_;
   std::deque<Vector2> once_reachable_;  ///< frontiers that there was a way to, in the map
   std::vector<Place> shut_;             ///< to these there is none any more: where to wait for it
-  std::optional<Time> seems_over_since_;
+  std::optional<Time> seems_over_since_, judged_at_;
+  Duration hope_left_{};  ///< that a door opens
   bool over_ = false;
-  bool last_look_ = false;  ///< only what was hardly worth it is left
+  bool seemed_over_ = false;  ///< once: what was tried in vain since has had its turn
+  bool last_look_ = false;    ///< only what was hardly worth it is left
 };
 
 }  // namespace dynslam

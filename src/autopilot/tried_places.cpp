@@ -23,14 +23,14 @@ TriedPlaces::Tried& TriedPlaces::entry(const Vector2& point_map) {
     places_.erase(std::min_element(places_.begin(), places_.end(),
                                    [](const Tried& a, const Tried& b) { return a.last < b.last; }));
   }
-  return places_.emplace_back(Tried{point_map, 0, Time(), Time(), false});
+  return places_.emplace_back(Tried{point_map, 0, Time(), Time(), InVain::kNoWay});
 }
 
-int TriedPlaces::add(Time now, const Vector2& point_map, Duration leave_alone, bool may_open) {
+int TriedPlaces::add(Time now, const Vector2& point_map, Duration leave_alone, InVain last_try) {
   Tried& place = entry(point_map);
   place.last = now;
   place.until = now + leave_alone;
-  place.may_open = may_open;
+  place.last_try = last_try;
   return ++place.tries;
 }
 

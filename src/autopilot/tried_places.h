@@ -10,6 +10,10 @@
 
 namespace dynslam {
 
+/// What came of a try: there was no way, though the planner knew one; it was looked at through something that
+/// was shut; it was looked at from near and did not change.
+enum class InVain { kNoWay, kShut, kSeen };
+
 /// Remembers where the robot tried in vain, and for how long to leave that alone. Places nearer than
 /// `within_m` are the same; beyond `most_places` the one tried longest ago is forgotten. One thread.
 class TriedPlaces {
@@ -18,8 +22,8 @@ class TriedPlaces {
     Vector2 point_map;
     int tries = 0;
     Time last;
-    Time until;             ///< left alone
-    bool may_open = false;  ///< there was no way to it; otherwise it was looked at and did not change
+    Time until;  ///< left alone
+    InVain last_try = InVain::kNoWay;
   };
 
   explicit TriedPlaces(double within_m, std::size_t most_places = 256)
@@ -28,7 +32,7 @@ class TriedPlaces {
   /// What is known of the place nearest to a point; null: nothing.
   const Tried* find(const Vector2& point_map) const;
   /// Another try, or the first one. Returns how many there were.
-  int add(Time now, const Vector2& point_map, Duration leave_alone, bool may_open = true);
+  int add(Time now, const Vector2& point_map, Duration leave_alone, InVain last_try = InVain::kNoWay);
   /// Leaves it alone for a time, and then all tries are to be had again.
   void rest(Time now, const Vector2& point_map, Duration leave_alone);
 

@@ -175,7 +175,7 @@ TEST(Autopilot, LooksWhetherADoorThatWasShutIsStillSo) {
   ASSERT_TRUE(pilot.autopilot.task());
   EXPECT_FALSE(pilot.autopilot.task()->yaw_rad) << "of no matter before the door";
   for (int i = 0; i < 8; ++i) EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kActive);
-  pilot.building.open('#');  // all walls fall
+  pilot.building.open('d');
   pilot.building.know_all();
   EXPECT_EQ(pilot.run().reason, "arrived");
   EXPECT_LT(pilot.away_m(pilot.building.find('g')), 0.01);
@@ -186,8 +186,8 @@ TEST(Autopilot, DrivesOnWhenTheDoorOpensAgain) {
   pilot.turn(GoThere{{pilot.building.find('g')}});
   pilot.building.wall_up('d');
   pilot.building.know_all();
-  for (int i = 0; i < 20; ++i) pilot.turn();
-  for (int y = 3; y < 6; ++y) pilot.building.open('#');  // all walls fall
+  for (int i = 0; i < 8; ++i) pilot.turn();
+  pilot.building.open('d');
   pilot.building.know_all();
   EXPECT_EQ(pilot.run().phase, AutopilotPhase::kIdle);
 }
@@ -203,7 +203,7 @@ TEST(Autopilot, WaitsForWhoStandsAtItsDestinationAndThenGoesThere) {
     ASSERT_EQ(pilot.turn().phase, AutopilotPhase::kActive);
   EXPECT_GT(pilot.away_m(goal), 0.1);
   for (int i = 0; i < 10; ++i) EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kActive);
-  pilot.building.open('#');
+  pilot.building.open('g');
   pilot.building.know_all();
   EXPECT_EQ(pilot.run().reason, "arrived");
   EXPECT_LT(pilot.away_m(goal), 0.01);
@@ -393,7 +393,7 @@ TEST(Autopilot, DrivesHomeWithTheLastOfItsBattery) {
   pilot.notes = std::make_shared<MapNotes>();
   pilot.notes->home = Destination{pilot.building.find('s'), {}, "the charger"};
   pilot.turn(GoThere{{pilot.building.find('g')}});
-  for (int i = 0; i < 20; ++i) pilot.turn();
+  for (int i = 0; i < 8; ++i) pilot.turn();
   pilot.condition.battery = BatteryLevel::kRecharge;
   const AutopilotStatus status = pilot.run();
   EXPECT_EQ(status.phase, AutopilotPhase::kStopped);
@@ -457,6 +457,45 @@ TEST(Autopilot, ExploresEveryRoomAndEnds) {
   EXPECT_EQ(pilot.building.world(pilot.now, pilot.at).map.state(cell_at(pilot.building.find('g'), 0.02)),
             CellState::kFree);
   EXPECT_LT(pilot.way_m, 12.0);
+}
+
+/// Explores, and the door between it and the other room was shut.
+struct ShutIn : Pilot {
+  ShutIn() : Pilot(kFlat, stays()) {
+    looks = true;
+    turn(Explore{});
+    for (int i = 0; i < 8; ++i) turn();
+    building.wall_up('d');
+    shut_at = now;
+  }
+  static AutopilotSetup stays() {
+    AutopilotSetup setup;
+    setup.autopilot.when_explored = "stay";
+    setup.autopilot.door_patience_s = 20.0;
+    return setup;
+  }
+  double waited_s() const { return to_seconds(now - shut_at); }
+  Time shut_at;
+};
+
+TEST(Autopilot, HopesThatAShutDoorOpensButNotForEver) {
+  ShutIn pilot;
+  const AutopilotStatus ended = pilot.run();
+  EXPECT_EQ(ended.phase, AutopilotPhase::kIdle);
+  EXPECT_EQ(ended.reason, "everything is mapped but what lies behind closed doors");
+  EXPECT_GT(pilot.waited_s(), 20.0);
+  EXPECT_LT(pilot.waited_s(), 30.0);
+}
+
+TEST(Autopilot, ExploresOnAtOnceWhenTheDoorOpensThatItHopedFor) {
+  ShutIn pilot;
+  while (pilot.waited_s() < 15.0) EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kActive);
+  pilot.building.open('d');
+  const AutopilotStatus ended = pilot.run();
+  EXPECT_EQ(ended.reason, "everything within reach is mapped");
+  EXPECT_LT(pilot.waited_s(), 45.0);
+  EXPECT_EQ(pilot.building.world(pilot.now, pilot.at).map.state(cell_at(pilot.building.find('g'), 0.02)),
+            CellState::kFree);
 }
 
 TEST(Autopilot, GoesHomeWhenAllIsExplored) {

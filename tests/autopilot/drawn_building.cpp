@@ -22,16 +22,12 @@ Vector2 DrawnBuilding::find(char letter) const {
   throw std::logic_error(std::string("there is no ") + letter);
 }
 
-void DrawnBuilding::turn(char from, char to) {
-  for (std::string& line : lines_) std::replace(line.begin(), line.end(), from, to);
-}
-
 bool DrawnBuilding::is_wall(const Vector2& point) const {
   const int row = floor_to_int(point.y() / kLetter_m), column = floor_to_int(point.x() / kLetter_m);
   if (row < 0 || row >= static_cast<int>(lines_.size())) return true;
   const std::string& line = lines_[static_cast<std::size_t>(row)];
   return column < 0 || column >= static_cast<int>(line.size()) ||
-         line[static_cast<std::size_t>(column)] == '#';
+         walls_.contains(line[static_cast<std::size_t>(column)]);
 }
 
 void DrawnBuilding::set(CellIndex c, bool wall) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,8 @@ class DrawnBuilding {
   /// The middle of the first such letter. REQUIRES: there is one.
   Vector2 find(char letter) const;
   /// All such letters become walls, or floor.
-  void wall_up(char letter) { turn(letter, '#'); }
-  void open(char letter) { turn(letter, '.'); }
+  void wall_up(char letter) { walls_.insert(letter); }
+  void open(char letter) { walls_.erase(letter); }
   bool is_wall(const Vector2& point) const;
 
   /// Adds to the map what is seen from there.
@@ -31,10 +32,10 @@ class DrawnBuilding {
   WorldState world(Time stamp, const Pose2& map_T_robot);
 
  private:
-  void turn(char from, char to);
   void set(CellIndex c, bool wall);
 
   std::vector<std::string> lines_;  ///< the lowest first
+  std::set<char> walls_{'#'};
   ChunkedGrid grid_{0.02};
 };
 

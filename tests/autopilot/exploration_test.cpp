@@ -223,16 +223,20 @@ TEST(Exploration, WhatFailedIsKnownByItsPlace) {
 }
 
 TEST(Exploration, AFrontierThatStaysAfterItWasVisitedEnds) {
-  Explorer e(kTwoDoors);
-  int visits = 0;
-  for (int i = 0; i < 100; ++i, e.now += seconds(30)) {
-    const auto places = e.places();
-    if (places.empty() || places[0].kind != PlaceKind::kFrontier) continue;
-    e.exploration.reached(e.now, places[0]);
-    ++visits;
+  for (const double extent_m : {0.9, 1.1}) {
+    Explorer e(kTwoDoors);
+    for (Frontier& f : e.flat.frontiers) f.extent_m = extent_m;
+    int visits = 0;
+    for (int i = 0; i < 100; ++i, e.now += seconds(30)) {
+      const auto places = e.places();
+      if (places.empty() || places[0].kind != PlaceKind::kFrontier) continue;
+      EXPECT_EQ(places[0].tries, visits / 2);
+      e.exploration.reached(e.now, places[0]);
+      ++visits;
+    }
+    EXPECT_EQ(visits, extent_m < 1.0 ? 2 : 6) << "once or three times each";
+    EXPECT_EQ(e.exploration.left_out().given_up, 2U);
   }
-  EXPECT_EQ(visits, 6) << "three times each";
-  EXPECT_EQ(e.exploration.left_out().given_up, 2U);
 }
 
 TEST(Exploration, WaitsForFrontiersThatAreLeftAloneAndGoesElsewhereMeanwhile) {
@@ -253,10 +257,29 @@ TEST(Exploration, WaitsForFrontiersThatAreLeftAloneAndGoesElsewhereMeanwhile) {
 
 TEST(Exploration, NobodyWaitsForWhatWasLookedAtInVain) {
   Explorer e(kTwoDoors);
+  for (Frontier& f : e.flat.frontiers) f.extent_m = 1.5;
   for (const Place& door : e.places()) e.exploration.reached(e.now, door);
   e.places();
   EXPECT_EQ(e.exploration.left_out().waiting, 2U);
   EXPECT_EQ(e.exploration.left_out().next, std::nullopt);
+}
+
+TEST(Exploration, ADoorThatOpensAgainIsNotLeftAlone) {
+  Explorer e(kTwoDoors);
+  Place door = e.places()[0];
+  door.is_shut_off = true;
+  e.exploration.reached(e.now, door);
+  ASSERT_EQ(e.places().size(), 2U);
+  EXPECT_EQ(e.places()[0].point_map, e.flat.frontiers[1].middle_map) << "it comes after what is new";
+  Reachability shut = e.flat.reach();
+  shut.nearest = [&](const Vector2& p, double within_m) {
+    return p == door.point_map ? std::nullopt : e.flat.reach().nearest(p, within_m);
+  };
+  shut.before_door = [&](const Vector2&) { return std::optional(e.flat.robot); };
+  const auto while_shut =
+      e.exploration.places(e.now, e.flat.robot, e.flat.frontiers, e.visits, e.flat.map, shut);
+  EXPECT_EQ(while_shut.size(), 1U) << "it was looked at a moment ago";
+  EXPECT_EQ(e.exploration.left_out().next, e.now + seconds(60));
 }
 
 TEST(Exploration, AFrontierCountsWhenItWasThereForAWhile) {
@@ -276,6 +299,7 @@ TEST(Exploration, AFrontierCountsWhenItWasThereForAWhile) {
 
 TEST(Exploration, WhatCameBackComesAfterWhatIsNew) {
   Explorer e(kTwoDoors);
+  for (Frontier& f : e.flat.frontiers) f.extent_m = 1.5;
   const auto places = e.places();
   ASSERT_EQ(places.size(), 2U);
   e.exploration.vanished(e.now, places[0]);
