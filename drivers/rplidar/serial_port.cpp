@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "drivers/rplidar/serial_port.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>

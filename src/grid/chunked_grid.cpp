@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "grid/chunked_grid.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/picture_band.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dynslam {

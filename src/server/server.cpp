@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "server/server.h"
 
+#include <algorithm>
 #include <random>
 
 #include "server/control_channel.h"

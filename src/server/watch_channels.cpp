@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "server/watch_channels.h"
 
+#include <algorithm>
+
 #include "server/video_message.h"
 
 namespace dynslam {

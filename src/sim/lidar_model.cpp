@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim/lidar_model.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/robot_shape.h"

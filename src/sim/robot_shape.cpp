@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim/robot_shape.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace dynslam {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim/world_check.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "base/number_text.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "autopilot/autopilot.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "autopilot/drawn_building.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "autopilot/deep_cells.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <random>
 #include <vector>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "autopilot/exploration.h"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>

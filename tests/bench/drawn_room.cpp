@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/drawn_room.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Matching a scan against a local map of the 25 scans before it, and the kernel of the exhaustive search.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "drive/drive_control.h"
 
+#include <algorithm>
 #include <random>
 #include <string>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "drive/kinematics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>

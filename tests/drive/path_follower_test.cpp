@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "drive/path_follower.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>

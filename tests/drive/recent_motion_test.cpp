@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "drive/recent_motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

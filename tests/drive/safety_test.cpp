@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "drive/safety.h"
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "drive/sweep.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>

@@ -2,6 +2,7 @@
 // The driver against an emulated lidar, over a pseudo-terminal and in real time.
 #include "drivers/rplidar/rplidar.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/map_file.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "io/drawn_map.h"

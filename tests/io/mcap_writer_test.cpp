@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/mcap_writer.h"
 
+#include <algorithm>
 #include <random>
 #include <stdexcept>
 

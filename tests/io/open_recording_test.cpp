@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/open_recording.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plan/costmap.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>

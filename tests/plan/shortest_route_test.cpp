@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The planner's routes against the shortest there are, in small worlds of posts.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sim/disturbance.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sim/robot_body.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "sim/small_world.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim/simulator.h"
 
+#include <algorithm>
 #include <thread>
 
 #include <gtest/gtest.h>

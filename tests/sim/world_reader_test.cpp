@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "base/error.h"

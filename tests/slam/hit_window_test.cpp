@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam/hit_window.h"
 
+#include <algorithm>
 #include <random>
 
 #include <Eigen/Eigenvalues>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam/loop_search.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>

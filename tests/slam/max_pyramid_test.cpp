@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam/max_pyramid.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

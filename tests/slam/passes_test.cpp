@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "slam/passes.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "slam/drawn_world.h"

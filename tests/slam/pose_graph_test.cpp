@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam/pose_graph.h"
 
+#include <algorithm>
 #include <limits>
 #include <random>
 

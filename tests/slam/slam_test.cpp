@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slam/slam.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sensors that fail, lie or stop talking, through the whole of Slam.
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 

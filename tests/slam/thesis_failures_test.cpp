@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What went wrong in the maps of the system before this one (thesis, chapter 5), drawn small.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "slam/drawn_drive.h"

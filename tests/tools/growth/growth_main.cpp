@@ -4,6 +4,7 @@
 //
 //   build/release/tests/tools/growth/dynslam_growth RECORDING [--laps 10] [--path 3000] [--set
 //   section.key=value]
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
