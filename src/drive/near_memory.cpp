@@ -63,9 +63,11 @@ void NearMemory::add_to(std::vector<ObstaclePoint>& points, const Scan& scan, co
     const std::size_t sector = sector_of(from_lidar);
     // Where it can be seen, any return tells of it; nearer, others of its sector may be seen and it is not.
     if (from_lidar.norm() >= blind_m_ && farthest_m[sector] > 0.0F) return true;
-    for (const std::size_t beside : {kSectors - 1, kSectors, kSectors + 1})
-      if (farthest_m[(sector + beside) % kSectors] > from_lidar.norm() + kBehind_m) return true;
-    return false;
+    const auto sees_behind = [&](std::size_t other) {
+      return farthest_m[other % kSectors] > from_lidar.norm() + kBehind_m;
+    };
+    // On one side alone that is the edge of a thing.
+    return sees_behind(sector) || (sees_behind(sector + kSectors - 1) && sees_behind(sector + 1));
   };
   for (const auto& was : before) {
     if (!was || end - was->seen > kForgets) continue;

@@ -264,6 +264,25 @@ TEST(Clearance, RemembersTheHiddenPartOfWhatItSeesInPart) {
   EXPECT_LT(clearance.free_m(Time(milliseconds(400)), kRight, motion, 0.01), 0.2);
 }
 
+/// A table's leg beside the robot's corner: that one sees past it on either side says nothing of the leg.
+TEST(Clearance, RemembersAThinThingThatItSeesPast) {
+  const auto at = [](double angle_deg) -> Vector2 {
+    return 0.18 * Vector2(std::cos(angle_deg * kPi / 180.0), std::sin(angle_deg * kPi / 180.0));
+  };
+  const Vector2 a = at(129.0), b = at(135.0);
+  const std::vector<DrawnWorld::Wall> room{{-3, -3, -3, 3}, {3, -3, 3, 3}, {-3, 3, 3, 3}, {-3, -3, 3, -3}};
+  DrawnWorld with_leg{room, {}};
+  with_leg.walls.push_back({a.x(), a.y(), b.x(), b.y()});
+  Clearance clearance;
+  for (int i = 0; i < 10; ++i) {
+    const Scan scan = scan_of(with_leg, Time(milliseconds(100 * i)), 1200);
+    clearance.see(i < 4 ? scan : as_a3(scan), {});
+  }
+  EXPECT_LT(clearance.way(Time(milliseconds(900)), kRight, {}).share, 0.6);
+  clearance.see(as_a3(scan_of({room, {}}, Time(milliseconds(1000)), 1200)), {});
+  EXPECT_EQ(clearance.way(Time(milliseconds(1000)), kRight, {}).share, 1.0) << "it was taken away";
+}
+
 TEST(Clearance, WhatIsTooNearStaysBehindAsTheRobotDrivesOn) {
   RecentMotion motion;
   Clearance clearance;
