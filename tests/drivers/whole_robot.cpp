@@ -58,7 +58,7 @@ void WholeRobot::hold(const Twist& twist) {
 
 void WholeRobot::drive_by(Hand::Wish wish) {
   hand_.reset();
-  hand_.emplace(ports(), hardware_->clock, std::move(wish));
+  hand_ = std::make_unique<Hand>(ports(), hardware_->clock, std::move(wish));
 }
 
 void WholeRobot::TearDown() {

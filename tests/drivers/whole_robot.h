@@ -69,7 +69,8 @@ class WholeRobot : public ::testing::Test {
   std::unique_ptr<EmulatedHardware> hardware_;
   Config config_;
   std::unique_ptr<Robot> robot_;
-  std::optional<Hand> hand_;
+  // No optional: GCC 14 believes that one is used before it is made.
+  std::unique_ptr<Hand> hand_;
 };
 
 }  // namespace dynslam::test
