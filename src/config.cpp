@@ -38,11 +38,8 @@ std::string read_text(const std::string& path) {
 
 /// So that a file which was written for an older version still serves. Whoever renames a key, or takes one
 /// away, adds it.
-const std::vector<OldKey>& old_keys() {
-  static const std::vector<OldKey> keys = {
-      {"imu.calibration_file", "", "the calibration is kept in state.folder"},
-  };
-  return keys;
+std::vector<OldKey> old_keys() {
+  return {{"imu.calibration_file", "", "the calibration is kept in state.folder"}};
 }
 
 void append(std::vector<std::string>& all, std::vector<std::string> more) {

@@ -76,7 +76,7 @@ std::string StateFile::free_name(const std::string& stem, const std::string& end
   std::string name = stem + end;
   std::error_code unknown;
   for (int n = 2; fs::exists(fs::symlink_status(fs::path(folder_path_) / name, unknown)); ++n)
-    name = stem + '-' + std::to_string(n) + end;
+    name.assign(stem).append("-").append(std::to_string(n)).append(end);
   return name;
 }
 
