@@ -188,7 +188,7 @@ TEST(Autopilot, DrivesOnWhenTheDoorOpensAgain) {
   pilot.turn(GoThere{{pilot.building.find('g')}});
   pilot.building.wall_up('d');
   pilot.building.know_all();
-  for (int i = 0; i < 8; ++i) pilot.turn();
+  for (int i = 0; i < 20; ++i) pilot.turn();
   pilot.building.open('d');
   pilot.building.know_all();
   EXPECT_EQ(pilot.run().phase, AutopilotPhase::kIdle);
@@ -395,7 +395,7 @@ TEST(Autopilot, DrivesHomeWithTheLastOfItsBattery) {
   pilot.notes = std::make_shared<MapNotes>();
   pilot.notes->home = Destination{pilot.building.find('s'), {}, "the charger"};
   pilot.turn(GoThere{{pilot.building.find('g')}});
-  for (int i = 0; i < 8; ++i) pilot.turn();
+  for (int i = 0; i < 20; ++i) pilot.turn();
   pilot.condition.battery = BatteryLevel::kRecharge;
   const AutopilotStatus status = pilot.run();
   EXPECT_EQ(status.phase, AutopilotPhase::kStopped);
