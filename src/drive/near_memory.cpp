@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "drive/hidden_walls.h"
+
 namespace dynslam {
 namespace {
 
@@ -22,25 +24,6 @@ constexpr double kSamePlace_m = 0.02;
 /// A return from so far behind a thing says that it is gone.
 constexpr double kBehind_m = 0.06;
 
-std::size_t sector_of(double angle_rad) {
-  const double turns = angle_rad / kTwoPi;
-  const double share = turns - std::floor(turns);
-  return static_cast<std::size_t>(share * static_cast<double>(NearMemory::kSectors)) % NearMemory::kSectors;
-}
-std::size_t sector_of(const Vector2& p) { return sector_of(std::atan2(p.y(), p.x())); }
-
-/// How far one sees in each direction, in the lidar's frame seen from above; 0 where nothing comes back.
-std::array<float, NearMemory::kSectors> sight(const Scan& scan) {
-  std::array<float, NearMemory::kSectors> farthest_m{};
-  const double side = scan.mount.upside_down ? -1.0 : 1.0;
-  for (const Beam& beam : scan.beams) {
-    if (!is_return(beam) || !std::isfinite(beam.angle_rad)) continue;
-    float& far = farthest_m[sector_of(side * beam.angle_rad)];
-    far = std::max(far, beam.range_m);
-  }
-  return farthest_m;
-}
-
 }  // namespace
 
 void NearMemory::add_to(std::vector<ObstaclePoint>& points, const Scan& scan, const BodyConfig& body,
@@ -53,27 +36,29 @@ void NearMemory::add_to(std::vector<ObstaclePoint>& points, const Scan& scan, co
   const Near before = std::exchange(near_, {});
   end_ = end;
 
+  const Sight sight(scan, motion.between(scan.stamp, end).yaw);
   for (const ObstaclePoint& p : points) {
     const Vector2 from_lidar = lidar_T_robot * Vector2(p.x_m, p.y_m);
-    if (from_lidar.norm() < blind_m_ + kOutside_m) near_[sector_of(from_lidar)] = {{p.x_m, p.y_m}, end, 1};
+    if (from_lidar.norm() < blind_m_ + kOutside_m)
+      near_[Sight::sector_of(from_lidar)] = {{p.x_m, p.y_m}, end, 1};
   }
+  continue_walls(points, sight, robot_T_lidar, body, blind_m_);
   if (!knows) return;
-  const auto farthest_m = sight(scan);
   const auto is_gone = [&](const Vector2& from_lidar) {
-    const std::size_t sector = sector_of(from_lidar);
+    const std::size_t sector = Sight::sector_of(from_lidar);
     // Where it can be seen, any return tells of it; nearer, others of its sector may be seen and it is not.
-    if (from_lidar.norm() >= blind_m_ && farthest_m[sector] > 0.0F) return true;
+    if (from_lidar.norm() >= blind_m_ && sight.farthest_m(sector) > 0.0) return true;
     const auto sees_behind = [&](std::size_t other) {
-      return farthest_m[other % kSectors] > from_lidar.norm() + kBehind_m;
+      return sight.farthest_m(other) > from_lidar.norm() + kBehind_m;
     };
     // On one side alone that is the edge of a thing.
-    return sees_behind(sector) || (sees_behind(sector + kSectors - 1) && sees_behind(sector + 1));
+    return sees_behind(sector) || (sees_behind(sector + Sight::kSectors - 1) && sees_behind(sector + 1));
   };
   for (const auto& was : before) {
     if (!was || end - was->seen > kForgets) continue;
     const Vector2 at = now_T_before * was->at;
     const Vector2 from_lidar = lidar_T_robot * at;
-    auto& place = near_[sector_of(from_lidar)];
+    auto& place = near_[Sight::sector_of(from_lidar)];
     if (place && place->seen == end && (place->at - at).norm() < kSamePlace_m) place->times = was->times + 1;
     if (place || from_lidar.norm() > blind_m_ + kOutside_m || is_gone(from_lidar)) continue;
     place = {at, was->seen, was->times};

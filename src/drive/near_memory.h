@@ -2,11 +2,11 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "drive/obstacle_points.h"
+#include "drive/sight.h"
 
 namespace dynslam {
 
@@ -25,15 +25,13 @@ class NearMemory {
               const RecentMotion& motion);
   void forget() { near_ = {}; }
 
-  static constexpr std::size_t kSectors = 120;
-
  private:
   struct Seen {
     Vector2 at;  ///< from the robot at the last scan's end
     Time seen;   ///< last
     int times;   ///< one after the other, at the same place
   };
-  using Near = std::array<std::optional<Seen>, kSectors>;
+  using Near = std::array<std::optional<Seen>, Sight::kSectors>;
 
   double blind_m_;
   Near near_;                ///< by direction from the lidar

@@ -16,7 +16,8 @@ constexpr double kLongestGap_s = 0.5;
 constexpr double kBackward_m = 0.3, kForward_m = 0.5;
 constexpr double kStandsUnder_radps = 0.1;
 constexpr Duration kRest = std::chrono::milliseconds(300);
-constexpr double kHeadingShare = 0.8;  ///< of what may be off at the goal; the rest is for the pose's noise
+/// Of what may be off at the goal; the rest is for the pose's noise.
+constexpr double kPlaceShare = 0.9, kHeadingShare = 0.8;
 /// At the goal it tries for so long to face where it should; a full turn takes five seconds at most.
 constexpr Duration kTurnsAtGoal = std::chrono::seconds(7);
 constexpr Duration kHeldLately = std::chrono::seconds(1);
@@ -184,7 +185,7 @@ std::optional<FollowOutput> PathFollower::come_to_goal(const Tick& tick) {
   }
   if (swings) return rest(Following::kTurning);
   turning_ = 0;
-  if (!task_->stops_at_end || away_m <= config_.goal_m) {
+  if (!task_->stops_at_end || away_m <= kPlaceShare * config_.goal_m) {
     arrived_ = faces ? "" : "there is no room to turn";
     return rest(Following::kArrived, *arrived_);
   }

@@ -200,14 +200,6 @@ TEST(Clearance, KnowsWhereTheLidarSits) {
   EXPECT_NEAR(way_in(scan, kAhead).distance_m, 0.1 + 0.3 - 0.14, 0.01);
 }
 
-/// Drives ahead at 1 m/s for 200 ms after the scan of a wall.
-/// As a lidar that sees nothing nearer than 0.2 m.
-Scan as_a3(Scan scan) {
-  for (Beam& beam : scan.beams)
-    if (beam.range_m < 0.2F) beam.range_m = kInf;
-  return scan;
-}
-
 TEST(Clearance, RemembersWhatIsTooNearToBeSeen) {
   const auto leaf_at = [](double y) { return DrawnWorld{{{-0.12, y, 0.12, y}}, {}}; };
   Clearance fresh, seen_coming;

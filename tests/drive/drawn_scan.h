@@ -56,6 +56,13 @@ inline Scan scan_of(const DrawnWorld& world, Time stamp = {}, std::size_t beams 
   return scan;
 }
 
+/// What an A3 sees of it: nothing nearer than 0.2 m.
+inline Scan as_a3(Scan scan) {
+  for (Beam& beam : scan.beams)
+    if (beam.range_m < 0.2F) beam.range_m = std::numeric_limits<float>::infinity();
+  return scan;
+}
+
 /// A long wall across the way, so far from the middle of the robot; ahead when positive.
 inline DrawnWorld wall_at(double x) { return {{{x, -5, x, 5}}, {}}; }
 
