@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace dynslam {
@@ -22,6 +23,8 @@ constexpr double kPlaceShare = 0.9, kHeadingShare = 0.8;
 constexpr Duration kTurnsAtGoal = std::chrono::seconds(7);
 constexpr Duration kHeldLately = std::chrono::seconds(1);
 constexpr double kMoved_m = 0.05, kMoved_rad = 0.09;
+constexpr double kFeltNearby_m = 1.0;
+constexpr std::size_t kMostFelt = 16;
 
 Pose2 moved_by(const Twist& twist, double s) {
   const double half_turn = 0.5 * twist.w_radps * s;
@@ -118,6 +121,7 @@ FollowOutput PathFollower::rest(Following state, std::string reason) {
 FollowOutput PathFollower::next(const FollowInputs& in, const RecentMotion& motion) {
   if (!is_finite(in.map_T_robot)) return rest(Following::kWaiting, "the pose is not a number");
   estimate(in);
+  feel(in.touches);
   if (!task_) return rest(Following::kIdle, "no route");
   if (!problem_.empty()) return rest(Following::kBlocked, problem_);
   if (route_.empty()) return rest(Following::kIdle, "no route");
@@ -152,6 +156,18 @@ void PathFollower::estimate(const FollowInputs& in) {
   if (!turned_at_ || in.now < *turned_at_ || std::abs(in.measured.w_radps) > kStandsUnder_radps)
     turned_at_ = in.now;
   now_ = in.now;
+}
+
+/// On which side of it nobody knows. What was far behind is forgotten, lest the map has moved since.
+void PathFollower::feel(bool touches) {
+  const bool begins = touches && !touches_;
+  touches_ = touches;
+  const Vector2 here = pose_.translation();
+  while (!felt_turns_.empty() && (felt_turns_.front().pose.translation() - here).norm() > kFeltNearby_m)
+    felt_turns_.pop_front();
+  if (!begins || last_.v_mps != 0.0 || last_.w_radps == 0.0) return;
+  felt_turns_.push_back({pose_, last_.w_radps > 0.0 ? 1 : -1});
+  if (felt_turns_.size() > kMostFelt) felt_turns_.pop_front();
 }
 
 /// Looks no further than it may have come, lest it takes a leg beyond a wall for the one it is on.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,9 +16,10 @@ namespace dynslam {
 
 struct FollowInputs {
   Time now;
-  Pose2 map_T_robot;  ///< now: the caller extrapolates
-  Twist measured;     ///< as best known: yaw rate of the IMU, speed of SLAM; NaN: unknown
-  bool held = false;  ///< what it asks for is not driven: who guards it sees something in the way
+  Pose2 map_T_robot;     ///< now: the caller extrapolates
+  Twist measured;        ///< as best known: yaw rate of the IMU, speed of SLAM; NaN: unknown
+  bool held = false;     ///< what it asks for is not driven: who guards it sees something in the way
+  bool touches = false;  ///< a bumper is pressed
 };
 
 enum class Following {
@@ -42,7 +44,8 @@ struct FollowOutput {
 /// Martin and Gines, "Regulated Pure Pursuit for Robot Path Tracking", 2023) whose arc is checked against the
 /// newest scan and gives way to a neighbouring one that is free. Drives forward; turns on the spot when it
 /// faces away from the route, when no arc is free, and for the heading at the goal; and where there is no
-/// room for a turn, a little straight back. Commands nothing that Clearance calls not free. Pure; one thread.
+/// room for a turn, a little straight back. Does not turn again into what it touched in a turn, for the lidar
+/// does not see that. Commands nothing that Clearance calls not free. Pure; one thread.
 class PathFollower {
  public:
   explicit PathFollower(const FollowerConfig& config = {}, const BodyConfig& body = {},
@@ -78,6 +81,7 @@ class PathFollower {
   bool faces_goal_heading(const Tick& tick) const;
   bool is_at_rest(Time now) const;
   FollowOutput watch_motion(const FollowInputs& in, FollowOutput out);
+  void feel(bool touches);
   FollowOutput rest(Following state, std::string reason = {});
   double remaining_m() const { return route_.length_m() - progress_m_; }
   bool is_near_goal() const { return remaining_m() <= 2.0 * config_.pass_m; }
@@ -92,6 +96,7 @@ class PathFollower {
   FollowOutput hindered(Time now, const ClearWay& way);
   void begin_turn(double left_rad);
   bool is_to_turn(const Tick& tick, double off_rad);
+  bool would_touch(int side, double left_rad) const;
   Turn turn_to(const Tick& tick, int side, double left_rad) const;
   FollowOutput turn_by(const Tick& tick, double left_rad, bool may_back);
   std::optional<Twist> back_out(const Tick& tick) const;
@@ -122,8 +127,15 @@ class PathFollower {
   std::optional<Time> turned_at_;  ///< when it last was seen to turn
   int turning_ = 0;                ///< on the spot: 1 left, -1 right
   bool turned_back_ = false;       ///< this turn was tried the other way round
-  double backed_m_ = 0.0;          ///< to make room for it
-  double backs_until_m_ = 0.0;     ///< of these
+  /// Where it touched something while it turned on the spot, and to which side it did.
+  struct FeltTurn {
+    Pose2 pose;
+    int side;
+  };
+  std::deque<FeltTurn> felt_turns_;
+  bool touches_ = false;
+  double backed_m_ = 0.0;       ///< to make room for it
+  double backs_until_m_ = 0.0;  ///< of these
   std::optional<Time> hindered_at_;
   double hindered_remaining_m_ = 0.0;
   std::optional<Time> held_at_;  ///< last

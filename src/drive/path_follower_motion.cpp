@@ -27,6 +27,8 @@ constexpr double kLeastTurn_radps = 0.3;
 constexpr double kWorthTurning_radps = 0.12;
 /// Straight back for a turn: so far at once, and in all.
 constexpr double kBack_m = 0.06, kMostBack_m = 0.4;
+/// So near to where it touched something in a turn it is the same turn, that ends so much before.
+constexpr double kSameTurn_m = 0.08, kFeltMargin_rad = 0.15;
 /// On the spot, this near to the wanted direction is enough to drive on.
 constexpr double kFaces_rad = 0.25;
 /// Where no arc is free, this much off is turned on the spot.
@@ -41,6 +43,12 @@ constexpr int kMostMisses = 4;
 double stopping_speed(double left, double braking, double reaction_s) {
   const double t = reaction_s;
   return braking * (std::sqrt(t * t + 2.0 * std::max(0.0, left) / braking) - t);
+}
+
+/// The rest of a turn when it goes to this side; 1: left.
+double left_to(int side, double left_rad) {
+  const double same_way = side * left_rad;
+  return same_way < 0.0 ? same_way + kTwoPi : same_way;
 }
 
 }  // namespace
@@ -150,9 +158,20 @@ std::optional<Twist> PathFollower::back_out(const Tick& tick) const {
   return Twist{way.share * back.v_mps, 0.0};
 }
 
+/// What it touched when it turned here before.
+bool PathFollower::would_touch(int side, double left_rad) const {
+  return std::any_of(felt_turns_.begin(), felt_turns_.end(), [&](const FeltTurn& felt) {
+    if (felt.side != side || (felt.pose.translation() - pose_.translation()).norm() > kSameTurn_m)
+      return false;
+    double until_rad = side * turn(pose_.yaw, felt.pose.yaw);
+    if (until_rad < -kFeltMargin_rad) until_rad += kTwoPi;
+    return until_rad < left_to(side, left_rad) + kFeltMargin_rad;
+  });
+}
+
 PathFollower::Turn PathFollower::turn_to(const Tick& tick, int side, double left_rad) const {
-  const double same_way = side * left_rad;
-  const double left = same_way < 0.0 ? same_way + kTwoPi : same_way;
+  if (would_touch(side, left_rad)) return {{}, {0.0, 0.0}, false};
+  const double left = left_to(side, left_rad);
   const double least = std::min(kLeastTurn_radps, config_.turn_radps);
   const double speed =
       std::clamp(stopping_speed(left, kTurnBraking_radps2, config_.reaction_s), least, config_.turn_radps);
@@ -173,6 +192,7 @@ PathFollower::Turn PathFollower::turn_to(const Tick& tick, int side, double left
 FollowOutput PathFollower::turn_by(const Tick& tick, double left_rad, bool may_back) {
   const bool went_too_far = turning_ * left_rad < 0.0 && std::abs(left_rad) < 0.5 * kPi;
   if (went_too_far) turning_ = -turning_;
+  if (would_touch(turning_, left_rad) && !would_touch(-turning_, left_rad)) turning_ = -turning_;
   const auto move = [&](const Twist& twist) {
     last_ = twist;
     return FollowOutput{twist, Following::kTurning, remaining_m(), {}};

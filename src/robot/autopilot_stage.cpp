@@ -148,7 +148,9 @@ Twist AutopilotStage::wanted_twist(Time now, const Wanted& wanted) {
   } else if (wanted.task && has_pose && !is_stopped) {
     const Pose2 map_T_robot = world_->pose.map_T_robot * motion_.between(world_->pose.stamp, now);
     const FollowOutput out =
-        follower_.next({now, map_T_robot, measured_, drive->verdict.motion == Motion::kHold}, motion_);
+        follower_.next({now, map_T_robot, measured_, drive->verdict.motion == Motion::kHold,
+                        drive->collision.value_or(false)},
+                       motion_);
     report_.put({wanted.task->id, out.state, out.remaining_m, follower_.remaining(), out.reason});
     twist = speed_.correct(now, out.twist, applied_, measured_);
   }

@@ -162,6 +162,32 @@ TEST(PathFollower, ComesToGoalsNearbyInAllDirections) {
     }
 }
 
+/// What it touched as it turned left is too low for its lidar.
+TEST(PathFollower, DoesNotTurnAgainIntoWhatItTouched) {
+  PathFollower follower;
+  const RecentMotion motion;
+  Time now{};
+  const auto turn_of = [&](const Pose2& pose, bool touches = false) {
+    now += std::chrono::milliseconds(50);
+    follower.see(scan_of({}, now), motion);
+    return follower.next({now, pose, {}, false, touches}, motion).twist.w_radps;
+  };
+  const DriveTask behind_left = route({{0, 0}, {-3, 1}});
+  follower.follow(behind_left);
+  EXPECT_GT(turn_of({0, 0, 0.0}), 0.0);
+  EXPECT_GT(turn_of({0, 0, 0.8}), 0.0);
+  turn_of({0, 0, 0.9}, true);
+  for (const double yaw : {0.9, 0.6, 0.3}) {  // and backs off
+    follower.halt();
+    follower.follow(behind_left);
+    EXPECT_LT(turn_of({0, 0, yaw}), 0.0) << yaw << ": the other way round";
+  }
+  for (double yaw = 0.0; yaw > -kPi; yaw -= 0.2) EXPECT_LT(turn_of({0, 0, yaw}), 0.0) << yaw;
+  EXPECT_LT(turn_of({0, 0, kPi - 0.1}), 0.0);
+  follower.follow(behind_left);
+  EXPECT_GT(turn_of({0.2, 0, 0.3}), 0.0) << "here it may turn";
+}
+
 TEST(PathFollower, PassingALookOutIsEnough) {
   ToyRobot robot({}, ToyFaults{});
   DriveTask task = route({{0, 0}, {3, 0}});
