@@ -44,9 +44,9 @@ Autopilot::Autopilot(const AutopilotSetup& setup)
       explorer_(setup.exploration, setup.autopilot) {}
 
 const AutopilotStatus& Autopilot::turn(Time now, const AutopilotInputs& in) {
-  for (const Order& order : in.orders) take(order);
+  for (const Order& order : in.orders) take(now, order);
   if (in.is_steered && is_on()) {
-    take(SwitchOff{});
+    take(now, SwitchOff{});
     status_.reason = "a person took the wheel";
   }
   observe(now, in);
@@ -59,7 +59,8 @@ const AutopilotStatus& Autopilot::turn(Time now, const AutopilotInputs& in) {
   return status_;
 }
 
-void Autopilot::take(const Order& order) {
+void Autopilot::take(Time now, const Order& order) {
+  ordered_at_ = now;
   ++status_.errand;
   errand_ = order;
   flees_ = false;
@@ -114,7 +115,7 @@ bool Autopilot::free_itself(Time now, const AutopilotInputs& in, const std::opti
   if (backs_off_until_ && now < *backs_off_until_) return true;
   const bool tried = std::exchange(backs_off_until_, std::nullopt).has_value();
   if (!touches) return false;
-  const auto lately = felt_.count_since(now - kTouchesCountFor);
+  const auto lately = felt_.count_since(std::max(now - kTouchesCountFor, ordered_at_));
   if (tried || !in.condition.pose || !costmap_ || lately >= static_cast<std::size_t>(config_.most_touches)) {
     end(AutopilotPhase::kStopped, hindrance->reason);
     return true;
@@ -197,6 +198,7 @@ void Autopilot::set_out_to(const Destination& to, bool stops, std::optional<doub
 bool Autopilot::explore(Time now, const Vector2& robot_map) {
   const bool is_new = explorer_.choose(now, robot_map, *costmap_, planner_);
   if (explorer_.is_over() && felt_.doubt()) {
+    while (felt_.doubt()) continue;
     keep_out();
     explorer_.begin();
     return false;

@@ -62,7 +62,7 @@ class Autopilot {
 
  private:
   bool explores() const { return std::holds_alternative<Explore>(errand_); }
-  void take(const Order& order);
+  void take(Time now, const Order& order);
   void observe(Time now, const AutopilotInputs& in);
   void drive(Time now, const AutopilotInputs& in);
   bool bear(Time now, const AutopilotInputs& in, const Hindrance& hindrance);
@@ -90,6 +90,7 @@ class Autopilot {
   std::optional<Time> backs_off_until_;
 
   Order errand_ = SwitchOff{};
+  Time ordered_at_;
   bool flees_ = false;               ///< goes home to be charged
   std::size_t stop_ = 0;             ///< of a patrol
   std::size_t failed_stops_ = 0;     ///< one after the other

@@ -11,6 +11,8 @@ constexpr Duration kRemembers = std::chrono::minutes(10);
 constexpr std::size_t kMost = 64;
 constexpr double kRadius_m = 0.08;
 constexpr int kCorners = 8;
+/// Towards a corner of the robot.
+constexpr double kAside_rad = 0.7;
 
 std::vector<Vector2> outline_around(const Vector2& middle) {
   std::vector<Vector2> outline;
@@ -24,11 +26,11 @@ std::vector<Vector2> outline_around(const Vector2& middle) {
 }  // namespace
 
 void FeltObstacles::touched(Time now, const Pose2& map_T_robot, const Twist& driven, double robot_radius_m) {
-  doubted_ = false;
   Felt felt{now, {}};
   if (driven.v_mps != 0.0) {
     const double ahead_m = std::copysign(robot_radius_m + 0.5 * kRadius_m, driven.v_mps);
-    felt.outline_map = outline_around(map_T_robot * Vector2(ahead_m, 0.0));
+    for (const double aside_rad : {0.0, kAside_rad, -kAside_rad})
+      felt.guesses_map.push_back(map_T_robot * (ahead_m * Vector2(std::cos(aside_rad), std::sin(aside_rad))));
   }
   felt_.push_back(std::move(felt));
   if (felt_.size() > kMost) felt_.pop_front();
@@ -42,14 +44,20 @@ bool FeltObstacles::forget(Time now) {
 }
 
 bool FeltObstacles::doubt() {
-  const bool counts = !outlines_map().empty();
-  doubted_ = true;
-  return counts;
+  const auto last = std::find_if(felt_.rbegin(), felt_.rend(), [](const Felt& f) { return f.counts(); });
+  if (last == felt_.rend()) return false;
+  ++last->guess;
+  return true;
 }
 
 bool FeltObstacles::trust() {
-  doubted_ = false;
-  return !outlines_map().empty();
+  bool changes = false;
+  for (Felt& f : felt_) {
+    if (f.counts() || f.guesses_map.empty()) continue;
+    f.guess = 0;
+    changes = true;
+  }
+  return changes;
 }
 
 std::size_t FeltObstacles::count_since(Time since) const {
@@ -59,9 +67,8 @@ std::size_t FeltObstacles::count_since(Time since) const {
 
 std::vector<std::vector<Vector2>> FeltObstacles::outlines_map() const {
   std::vector<std::vector<Vector2>> outlines;
-  if (doubted_) return outlines;
   for (const Felt& f : felt_)
-    if (!f.outline_map.empty()) outlines.push_back(f.outline_map);
+    if (f.counts()) outlines.push_back(outline_around(f.guesses_map[f.guess]));
   return outlines;
 }
 

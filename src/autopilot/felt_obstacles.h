@@ -11,17 +11,18 @@
 namespace dynslam {
 
 /// What the robot ran into and its lidar does not see: kept out of for a while, as are areas that people
-/// drew. In the map's frame as it was then. One thread.
+/// drew. Where along its front it touched is a guess: in the middle; if that shuts the way, on the left, then
+/// on the right. In the map's frame as it was then. One thread.
 class FeltObstacles {
  public:
   /// It touched something, driving like this.
   void touched(Time now, const Pose2& map_T_robot, const Twist& driven, double robot_radius_m);
   /// Forgets what was long ago; returns whether there was any such.
   bool forget(Time now);
-  /// It seems to shut the way, and was a guess: it counts for nothing until trust() or the next touch.
-  /// Returns whether that changes anything.
+  /// They seem to shut the way: guesses the next place for the last of them that has one left; without it
+  /// counts for nothing until trust(). Returns whether that changes anything.
   bool doubt();
-  /// It was not that. Returns whether that changes anything.
+  /// What counted for nothing counts again. Returns whether that changes anything.
   bool trust();
 
   /// Touches since `since`.
@@ -32,10 +33,11 @@ class FeltObstacles {
  private:
   struct Felt {
     Time time;
-    std::vector<Vector2> outline_map;
+    std::vector<Vector2> guesses_map;  ///< where it may be, the likeliest first
+    std::size_t guess = 0;             ///< as many as there are: none is left
+    bool counts() const { return guess < guesses_map.size(); }
   };
   std::deque<Felt> felt_;
-  bool doubted_ = false;
 };
 
 }  // namespace dynslam

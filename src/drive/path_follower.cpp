@@ -121,13 +121,13 @@ FollowOutput PathFollower::rest(Following state, std::string reason) {
 FollowOutput PathFollower::next(const FollowInputs& in, const RecentMotion& motion) {
   if (!is_finite(in.map_T_robot)) return rest(Following::kWaiting, "the pose is not a number");
   estimate(in);
-  feel(in.touches);
   if (!task_) return rest(Following::kIdle, "no route");
   if (!problem_.empty()) return rest(Following::kBlocked, problem_);
   if (route_.empty()) return rest(Following::kIdle, "no route");
   find_progress();
   if (arrived_) return rest(Following::kArrived, *arrived_);
   if (stuck_) return rest(Following::kStuck, "told to move, but does not");
+  if (touches_) return rest(Following::kWaiting, "it touches something");
   const Tick tick{in.now, in.measured, motion};
   FollowOutput out;
   if (auto at_goal = come_to_goal(tick))

@@ -16,10 +16,9 @@ namespace dynslam {
 
 struct FollowInputs {
   Time now;
-  Pose2 map_T_robot;     ///< now: the caller extrapolates
-  Twist measured;        ///< as best known: yaw rate of the IMU, speed of SLAM; NaN: unknown
-  bool held = false;     ///< what it asks for is not driven: who guards it sees something in the way
-  bool touches = false;  ///< a bumper is pressed
+  Pose2 map_T_robot;  ///< now: the caller extrapolates
+  Twist measured;     ///< as best known: yaw rate of the IMU, speed of SLAM; NaN: unknown
+  bool held = false;  ///< what it asks for is not driven: who guards it sees something in the way
 };
 
 enum class Following {
@@ -56,6 +55,8 @@ class PathFollower {
   void halt();
   /// The newest scan.
   void see(const Scan& scan, const RecentMotion& motion) { clearance_.see(scan, motion); }
+  /// Whether a bumper is pressed, by what was asked for last. To be told of it each time, before halt().
+  void feel(bool touches);
   /// What to drive now. `motion` is what was driven since the scan. Stands still and says why when a number
   /// is none; a `now` before the last one begins its patience anew.
   FollowOutput next(const FollowInputs& in, const RecentMotion& motion);
@@ -81,7 +82,6 @@ class PathFollower {
   bool faces_goal_heading(const Tick& tick) const;
   bool is_at_rest(Time now) const;
   FollowOutput watch_motion(const FollowInputs& in, FollowOutput out);
-  void feel(bool touches);
   FollowOutput rest(Following state, std::string reason = {});
   double remaining_m() const { return route_.length_m() - progress_m_; }
   bool is_near_goal() const { return remaining_m() <= 2.0 * config_.pass_m; }

@@ -74,7 +74,7 @@ void AutopilotStage::pilot_turn() {
   if (interrupted_ == wanted.value->errand) return let_go();
   follow(wanted.value->backs_off ? std::nullopt : wanted.value->task);
   if (!wanted.value->backs_off) {
-    back_off_.note(applied_);
+    if (!touches_) back_off_.note(applied_);
     came_.put(back_off_.came());
   }
   const Twist twist = wanted_twist(now, *wanted.value);
@@ -121,6 +121,8 @@ void AutopilotStage::feel(Time now) {
   const auto drive = ports_.drive.get().value;
   const auto imu = imu_.get().value;
   applied_ = drive ? drive->applied : Twist{};
+  touches_ = drive && drive->collision.value_or(false);
+  follower_.feel(touches_);
   motion_.add(now, applied_, imu ? std::optional(*imu) : std::nullopt);
   measured_.w_radps = motion_.between(now - kTurnOver, now).yaw / to_seconds(kTurnOver);
   const auto world = ports_.world.get().value;
@@ -148,9 +150,7 @@ Twist AutopilotStage::wanted_twist(Time now, const Wanted& wanted) {
   } else if (wanted.task && has_pose && !is_stopped) {
     const Pose2 map_T_robot = world_->pose.map_T_robot * motion_.between(world_->pose.stamp, now);
     const FollowOutput out =
-        follower_.next({now, map_T_robot, measured_, drive->verdict.motion == Motion::kHold,
-                        drive->collision.value_or(false)},
-                       motion_);
+        follower_.next({now, map_T_robot, measured_, drive->verdict.motion == Motion::kHold}, motion_);
     report_.put({wanted.task->id, out.state, out.remaining_m, follower_.remaining(), out.reason});
     twist = speed_.correct(now, out.twist, applied_, measured_);
   }

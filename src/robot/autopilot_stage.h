@@ -86,6 +86,7 @@ class AutopilotStage {
   std::optional<std::uint64_t> interrupted_;  ///< errand
   std::optional<DriveCommand> sent_;          ///< the last one; nothing while it does not drive
   std::shared_ptr<const WorldState> world_;
+  bool touches_ = false;
   Twist applied_, measured_;
 };
 

@@ -167,17 +167,19 @@ TEST(PathFollower, DoesNotTurnAgainIntoWhatItTouched) {
   PathFollower follower;
   const RecentMotion motion;
   Time now{};
-  const auto turn_of = [&](const Pose2& pose, bool touches = false) {
+  const auto turn_of = [&](const Pose2& pose) {
     now += std::chrono::milliseconds(50);
     follower.see(scan_of({}, now), motion);
-    return follower.next({now, pose, {}, false, touches}, motion).twist.w_radps;
+    return follower.next({now, pose, {}}, motion).twist.w_radps;
   };
   const DriveTask behind_left = route({{0, 0}, {-3, 1}});
   follower.follow(behind_left);
   EXPECT_GT(turn_of({0, 0, 0.0}), 0.0);
   EXPECT_GT(turn_of({0, 0, 0.8}), 0.0);
-  turn_of({0, 0, 0.9}, true);
-  for (const double yaw : {0.9, 0.6, 0.3}) {  // and backs off
+  follower.feel(true);
+  EXPECT_EQ(turn_of({0, 0, 0.9}), 0.0) << "while it touches";
+  follower.feel(false);
+  for (const double yaw : {0.9, 0.6, 0.3}) {  // it backed off
     follower.halt();
     follower.follow(behind_left);
     EXPECT_LT(turn_of({0, 0, yaw}), 0.0) << yaw << ": the other way round";
