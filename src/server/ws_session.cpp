@@ -71,18 +71,17 @@ void WsSession::fill(SteadyTime now) {
   sent_at_ = now;
 }
 
-/// Sends what goes without waiting, and takes up what comes next. False when the client is gone or takes
-/// nothing for too long.
+/// Sends what goes without waiting, and takes up what comes next; one message at a time, lest a client that
+/// listens fast is not listened to. False when the client is gone or takes nothing for too long.
 bool WsSession::flush(SteadyTime now) {
-  while (!out_.empty()) {
+  while (sent_ < out_.size()) {
     const ssize_t n = send(socket_, out_.data() + sent_, out_.size() - sent_, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (n < 0) return would_block() && now - sent_at_ < kPatience;
     sent_ += static_cast<std::size_t>(n);
     sent_at_ = now;
-    if (sent_ < out_.size()) continue;
-    out_.clear();
-    fill(now);
   }
+  out_.clear();
+  fill(now);
   return true;
 }
 
