@@ -191,10 +191,25 @@ step_clang() {
   run_tests build/clang
 }
 
+# What was found to be in order is not looked at again until it, something it includes, or the rules change.
 step_tidy() {
-  need_to_build clang clang-tidy-14 || skip "clang-tidy 14 is to be had on Debian 12"
+  need_to_build clang clang-tidy-14 jq || skip "clang-tidy 14 is to be had on Debian 12"
   quietly cmake --preset clang
-  quietly run-clang-tidy-14 -quiet -p build/clang -j "$CMAKE_BUILD_PARALLEL_LEVEL" "^$PWD/src/"
+  tidied=${XDG_CACHE_HOME:-$HOME/.cache}/dynslam-tidy
+  mkdir -p "$tidied"
+  find "$tidied" -type f -mtime +60 -delete
+  export tidied
+  export -f tidy
+  jq -r --arg src "$PWD/src/" '.[] | select(.file | startswith($src)) | .file, .directory, .command' build/clang/compile_commands.json |
+    tr '\n' '\0' | xargs -0 -n 3 -P "$CMAKE_BUILD_PARALLEL_LEVEL" bash -c 'tidy "$@"' tidy
+}
+
+# FILE DIRECTORY COMMAND: how it is compiled.
+tidy() {
+  local text mark
+  text=$(cd "$2" && eval "$(sed -E 's/ -o [^ ]+//; s/ -c / -E /' <<<"$3")" | sed "s,$PWD/,,g") || return 1
+  mark=$tidied/$({ clang-tidy-14 --version && cat .clang-tidy && echo "$text"; } | sha256sum | cut -d' ' -f1)
+  [[ -e $mark ]] || { clang-tidy-14 --quiet -p build/clang "$1" 2>/dev/null && touch "$mark"; }
 }
 
 step_fuzz() {
@@ -218,25 +233,29 @@ fuzz() {
   echo "$name: $(grep '^Done' "$logs/fuzz_$name")"
 }
 
-# Tests and runs a clean clone of the last commit in a new Debian, and tests again what is built.
+# Runs and tests a clean clone of the last commit in a new Debian. But for what was compiled there before, in ccache,
+# nothing is taken along.
 fresh_debian() {
-  local job began
+  local job began cache=$PWD/build/ccache-$1
   root=/var/tmp/dynslam-$1-$$
   [[ $(id -u) == 0 ]] || skip "making a Debian root and entering it takes root"
   need mmdebstrap git
   trap 'rm -rf --one-file-system "$root"' EXIT
   echo "making a Debian $1"
-  quietly mmdebstrap --variant=minbase "$1" "$root" "$(toolchain/mirror.sh)"
+  quietly mmdebstrap --variant=minbase --include=ccache "$1" "$root" "$(toolchain/mirror.sh)"
   git clone --quiet --no-hardlinks . "$root/root/dynslam"
+  mkdir -p "$cache" "$root/root/ccache"
   # npm's registry may be reached over a certificate that only this machine knows.
   cp /etc/ssl/certs/ca-certificates.crt "$root/root/as-outside.crt"
   echo "commit $(git log -1 --format='%h %s')$(git diff --quiet HEAD || echo ', without what is not committed')"
-  for job in test "run sim --headless --speed 0 --out /root/dynslam/out" test; do
+  for job in "run sim --headless --speed 0 --out /root/dynslam/out" test; do
     began=$SECONDS
-    # shellcheck disable=SC2086 # a job and its arguments
-    unshare --mount --pid --fork --kill-child --root "$root" --mount-proc env -i \
-      NODE_EXTRA_CA_CERTS=/root/as-outside.crt HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin CMAKE_BUILD_PARALLEL_LEVEL="$CMAKE_BUILD_PARALLEL_LEVEL" \
-      /root/dynslam/toolchain/host.sh $job
+    # shellcheck disable=SC2016 # for the inner shell
+    unshare --mount --pid --fork --kill-child bash -c '
+      mount --bind "$1" "$2/root/ccache" && mount -t proc proc "$2/proc" && shift && exec chroot "$@"' enter \
+      "$cache" "$root" /usr/bin/env -i NODE_EXTRA_CA_CERTS=/root/as-outside.crt HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin \
+      CCACHE_DIR=/root/ccache CMAKE_BUILD_PARALLEL_LEVEL="$CMAKE_BUILD_PARALLEL_LEVEL" \
+      bash -c "/root/dynslam/toolchain/host.sh $job"
     echo "host.sh $job took $((SECONDS - began)) s"
   done
   [[ -s $root/root/dynslam/out/map.png ]]

@@ -23,6 +23,9 @@ run_tests() {
   shift
   if "$@" ctest --test-dir "$tests" --output-on-failure --no-tests=error --timeout 600 >"$tests/ctest.log" 2>&1 </dev/null; then
     sed -n '/tests passed,/,$p' "$tests/ctest.log"
+    # A program may hold many of them.
+    sed -n 's/^\[  PASSED  \] \([0-9]*\) test.*/\1/p' "$tests/Testing/Temporary/LastTest.log" |
+      awk '{ n += $1 } END { print n " tests passed in " NR " programs" }'
   else
     grep -v -e ' Passed ' -e '^ *Start ' "$tests/ctest.log"
     exit 1
