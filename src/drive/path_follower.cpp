@@ -191,7 +191,8 @@ std::optional<FollowOutput> PathFollower::come_to_goal(const Tick& tick) {
                                                : 0.8 * config_.goal_m;
   if (away_m <= enough_m && is_near_goal() && !at_goal_since_) at_goal_since_ = tick.now;
   if (!at_goal_since_) return std::nullopt;
-  const bool swings = turning_ != 0 && !is_at_rest(tick.now);
+  const bool has_heading = task_->stops_at_end && task_->yaw_rad;
+  const bool swings = (turning_ != 0 || has_heading) && !is_at_rest(tick.now);
   if (swings && !is_moving(last_)) return rest(Following::kTurning);  // where it comes to rest is a guess
   const bool faces = !task_->stops_at_end || faces_goal_heading(tick);
   if (!faces && tick.now - *at_goal_since_ < kTurnsAtGoal) {
