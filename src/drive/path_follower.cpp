@@ -16,7 +16,7 @@ constexpr double kLongestGap_s = 0.5;
 // Where along the route the robot may be, from where it was.
 constexpr double kBackward_m = 0.3, kForward_m = 0.5;
 constexpr double kStandsUnder_radps = 0.1;
-constexpr Duration kRest = std::chrono::milliseconds(300);
+constexpr Duration kRest = std::chrono::milliseconds(400);
 /// Of what may be off at the goal; the rest is for the pose's noise.
 constexpr double kPlaceShare = 0.9, kHeadingShare = 0.8;
 /// At the goal it tries for so long to face where it should; a full turn takes five seconds at most.
@@ -153,8 +153,8 @@ void PathFollower::estimate(const FollowInputs& in) {
   }
   moved_m_ = (pose_.translation() - before.translation()).norm();
   if (passed_s > 0.0 && passed_s <= kLongestGap_s) backed_m_ += std::max(0.0, -last_.v_mps) * passed_s;
-  if (!turned_at_ || in.now < *turned_at_ || std::abs(in.measured.w_radps) > kStandsUnder_radps)
-    turned_at_ = in.now;
+  const bool moves = is_moving(last_) || std::abs(in.measured.w_radps) > kStandsUnder_radps;
+  if (!moved_at_ || in.now < *moved_at_ || moves) moved_at_ = in.now;
   now_ = in.now;
 }
 
@@ -191,16 +191,16 @@ std::optional<FollowOutput> PathFollower::come_to_goal(const Tick& tick) {
                                                : 0.8 * config_.goal_m;
   if (away_m <= enough_m && is_near_goal() && !at_goal_since_) at_goal_since_ = tick.now;
   if (!at_goal_since_) return std::nullopt;
-  const bool has_heading = task_->stops_at_end && task_->yaw_rad;
-  const bool swings = (turning_ != 0 || has_heading) && !is_at_rest(tick.now);
-  if (swings && !is_moving(last_)) return rest(Following::kTurning);  // where it comes to rest is a guess
+  const bool coasts = task_->stops_at_end && !is_at_rest(tick.now);
+  const Following coming = turning_ != 0 ? Following::kTurning : Following::kDriving;
+  if (coasts && !is_moving(last_)) return rest(coming);  // where it comes to rest is a guess
   const bool faces = !task_->stops_at_end || faces_goal_heading(tick);
   if (!faces && tick.now - *at_goal_since_ < kTurnsAtGoal) {
     const double left = turn(pose_.yaw, *task_->yaw_rad);
     if (turning_ == 0) begin_turn(left);
     return turn_by(tick, left, false);  // it is where it is to be
   }
-  if (swings) return rest(Following::kTurning);
+  if (coasts) return rest(coming);
   turning_ = 0;
   if (!task_->stops_at_end || away_m <= kPlaceShare * config_.goal_m) {
     arrived_ = faces ? "" : "there is no room to turn";
@@ -221,7 +221,7 @@ bool PathFollower::faces_goal_heading(const Tick& tick) const {
 }
 
 /// For so long that the pose is that at which it came to rest.
-bool PathFollower::is_at_rest(Time now) const { return turned_at_ && now - *turned_at_ > kRest; }
+bool PathFollower::is_at_rest(Time now) const { return moved_at_ && now - *moved_at_ > kRest; }
 
 /// Wheels that slip, or are blocked by what the lidar does not see.
 FollowOutput PathFollower::watch_motion(const FollowInputs& in, FollowOutput out) {

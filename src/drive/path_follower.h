@@ -121,12 +121,12 @@ class PathFollower {
   bool stuck_ = false;                  ///< until follow()
 
   std::optional<Time> now_;
-  Pose2 pose_;                     ///< of the robot in the map, smoothed
-  double moved_m_ = 0;             ///< of the pose, since the last time
-  Twist last_;                     ///< commanded
-  std::optional<Time> turned_at_;  ///< when it last was seen to turn
-  int turning_ = 0;                ///< on the spot: 1 left, -1 right
-  bool turned_back_ = false;       ///< this turn was tried the other way round
+  Pose2 pose_;                    ///< of the robot in the map, smoothed
+  double moved_m_ = 0;            ///< of the pose, since the last time
+  Twist last_;                    ///< commanded
+  std::optional<Time> moved_at_;  ///< when it last was told to move, or seen to turn
+  int turning_ = 0;               ///< on the spot: 1 left, -1 right
+  bool turned_back_ = false;      ///< this turn was tried the other way round
   /// Where it touched something while it turned on the spot, and to which side it did.
   struct FeltTurn {
     Pose2 pose;

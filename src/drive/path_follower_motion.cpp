@@ -31,6 +31,8 @@ constexpr double kBack_m = 0.06, kMostBack_m = 0.4;
 constexpr double kSameTurn_m = 0.08, kFeltMargin_rad = 0.15;
 /// On the spot, this near to the wanted direction is enough to drive on.
 constexpr double kFaces_rad = 0.25;
+/// Where there is no room to turn on the spot, an arc leads on, up to this much off.
+constexpr double kArcLeads_rad = 1.0;
 /// Where no arc is free, this much off is turned on the spot.
 constexpr double kTurnsOut_rad = 0.15;
 /// The speed at which a way is asked for: how far one looks for what is in it.
@@ -60,15 +62,18 @@ FollowOutput PathFollower::drive(const Tick& tick) {
   if (misses_ > kMostMisses) return rest(Following::kBlocked, "the goal cannot be reached exactly");
   const Vector2 to = aim_robot();
   const double off = std::atan2(to.y(), to.x());
-  if (is_to_turn(tick, off)) return turn_by(tick, off, true);
+  const bool turns = is_to_turn(tick, off);
+  const bool has_room = turns && turn_to(tick, turning_, off).is_enough;
+  if (turns && (has_room || std::abs(off) > kArcLeads_rad)) return turn_by(tick, off, true);
 
   const double wanted = curvature_to(to);
   const double wanted_mps = allowed_mps(tick, wanted);
   const std::optional<Arc> arc = arc_for(tick, to, wanted, wanted_mps);
-  if (!arc && std::abs(off) > kTurnsOut_rad) {
-    begin_turn(off);
+  if (!arc && (turns || std::abs(off) > kTurnsOut_rad)) {
+    if (!turns) begin_turn(off);
     return turn_by(tick, off, true);
   }
+  turning_ = 0;
   if (!arc) return hindered(tick.now, clearance_.way(tick.now, {kLook_mps, kLook_mps * wanted}, tick.motion));
   note_hindrance(tick.now, wanted_mps > 0.0);
   last_ = {arc->speed_mps, arc->speed_mps * arc->curvature_1pm};
