@@ -65,7 +65,7 @@ void Autopilot::take(Time now, const Order& order) {
   errand_ = order;
   flees_ = false;
   stop_ = failed_stops_ = 0;
-  if (felt_.trust() && costmap_) keep_out();
+  trust();
   const bool explores = std::holds_alternative<Explore>(order);
   status_.mode = explores ? AutopilotMode::kExploration : AutopilotMode::kNavigation;
   if (std::holds_alternative<SwitchOff>(order)) return end(AutopilotPhase::kOff, "");
@@ -93,7 +93,9 @@ void Autopilot::observe(Time now, const AutopilotInputs& in) {
   if (!costmap_) costmap_.emplace(map.cell_size_m());
   const bool is_news = in.notes && in.notes != notes_;
   if (is_news) notes_ = in.notes;
-  if (felt_.forget(now) || is_news) keep_out();
+  const bool felt_less = felt_.forget(now);
+  const bool sees_glass = glass_.see(now, in.glass_map, in.world->pose.map_T_robot.translation());
+  if (felt_less || sees_glass || is_news) keep_out();
   if (!mapped_at_ || now < *mapped_at_ || now - *mapped_at_ >= kMapsEvery) {
     costmap_->update(map);
     mapped_at_ = now;
@@ -103,8 +105,15 @@ void Autopilot::observe(Time now, const AutopilotInputs& in) {
 
 void Autopilot::keep_out() {
   std::vector<std::vector<Vector2>> outlines = felt_.outlines_map();
+  for (auto& pane : glass_.outlines_map()) outlines.push_back(std::move(pane));
   if (notes_) outlines.insert(outlines.end(), notes_->forbidden_map.begin(), notes_->forbidden_map.end());
   costmap_->set_forbidden(outlines);
+}
+
+/// What was doubted counts again.
+void Autopilot::trust() {
+  const bool felt = felt_.trust(), glass = glass_.trust();
+  if ((felt || glass) && costmap_) keep_out();
 }
 
 /// Backs off from what it touched, for a moment, and remembers where that was. Whatever else hinders it ends
@@ -236,7 +245,7 @@ void Autopilot::finish_exploring() {
 void Autopilot::arrived(Time now, const std::string& remark) {
   failed_stops_ = 0;
   if (explores()) return explorer_.reached(now);
-  if (felt_.trust()) keep_out();
+  trust();
   if (std::holds_alternative<Patrol>(errand_)) {
     ++stop_;
     rests_until_ = now + from_seconds(config_.patrol_pause_s);
@@ -250,8 +259,8 @@ void Autopilot::arrived(Time now, const std::string& remark) {
 
 void Autopilot::failed(Time now, const Navigator::Report& report) {
   if (explores()) return explorer_.failed(now);
-  if (felt_.doubt()) return keep_out();
-  if (felt_.trust()) keep_out();
+  if (felt_.doubt() || glass_.doubt()) return keep_out();
+  trust();
   if (const auto* patrol = std::get_if<Patrol>(&errand_)) {
     ++stop_;
     if (++failed_stops_ < patrol->stops.size()) return;

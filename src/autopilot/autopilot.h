@@ -10,6 +10,7 @@
 #include "autopilot/autopilot_config.h"
 #include "autopilot/explorer.h"
 #include "autopilot/felt_obstacles.h"
+#include "autopilot/glass_map.h"
 #include "autopilot/hindrance.h"
 #include "autopilot/navigator.h"
 #include "autopilot/status.h"
@@ -34,8 +35,9 @@ struct AutopilotInputs {
   std::shared_ptr<const MapNotes> notes = {};  ///< null: none
   FollowReport follow = {};
   Condition condition = {};
-  bool is_steered = false;  ///< a person drives
-  Twist came = {};          ///< how it moved when it last moved
+  bool is_steered = false;                  ///< a person drives
+  Twist came = {};                          ///< how it moved when it last moved
+  std::span<const Segment> glass_map = {};  ///< panes that it sees
 };
 
 /// Decides where to drive (thesis, chapter 6): navigation brings the robot to a place that people chose,
@@ -68,6 +70,7 @@ class Autopilot {
   bool bear(Time now, const AutopilotInputs& in, const Hindrance& hindrance);
   bool free_itself(Time now, const AutopilotInputs& in, const std::optional<Hindrance>& hindrance);
   void keep_out();
+  void trust();
   bool set_out(Time now, const Vector2& robot_map);
   bool explore(Time now, const Vector2& robot_map);
   void finish_exploring();
@@ -87,6 +90,7 @@ class Autopilot {
   std::optional<Time> mapped_at_;   ///< when it was updated last
   std::shared_ptr<const MapNotes> notes_;
   FeltObstacles felt_;
+  GlassMap glass_;
   std::optional<Time> backs_off_until_;
 
   Order errand_ = SwitchOff{};

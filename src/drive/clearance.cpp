@@ -6,18 +6,29 @@
 #include <cmath>
 #include <limits>
 
+#include "drive/hidden_walls.h"
+
 namespace dynslam {
 namespace {
 
 /// Slower than this is not worth to be driven: the robot holds.
 constexpr double kLeastSpeed_mps = 0.03;
+/// Nobody knows where the robot went in a longer time.
+constexpr Duration kLongestGap = std::chrono::milliseconds(500);
 
 }  // namespace
 
 void Clearance::see(const Scan& scan, const RecentMotion& motion) {
+  const Time end = end_of(scan);
+  const bool knows = end_ && end >= *end_ && end - *end_ <= kLongestGap;
+  const Look look{end, scan.mount.robot_T_lidar, Sight(scan, motion.between(scan.stamp, end).yaw),
+                  knows ? std::optional(motion.between(*end_, end)) : std::nullopt};
   points_ = obstacle_points(scan, body_, config_.min_range_m, motion);
-  near_.add_to(points_, scan, body_, motion);
-  end_ = end_of(scan);
+  glass_.see(points_, look);
+  near_.add_to(points_, look, body_);
+  continue_walls(points_, look, body_, config_.blind_m);
+  glass_.add_to(points_, body_);
+  end_ = end;
 }
 
 double Clearance::stopping_distance_m(double speed_mps) const {

@@ -7,6 +7,7 @@
 
 #include "base/config_field.h"
 #include "base/twist.h"
+#include "drive/glass_watch.h"
 #include "drive/near_memory.h"
 #include "drive/obstacle_points.h"
 #include "drive/sweep.h"
@@ -58,19 +59,22 @@ struct ClearWay {
 /// The collision zone: sweeps the robot's rectangle along the arc that is wanted through the newest scan's
 /// returns. The scan is old by the time it is used: the robot may have moved as commanded since then, or not
 /// at all yet, and has to stop in time in both cases. It sees the lidar's plane only, and no further than
-/// where the lidar looked; what is too near for the lidar it remembers. What moves towards the robot is taken
-/// to stand still.
+/// where the lidar looked; what is too near for the lidar it remembers, and of glass what it met squarely.
+/// What moves towards the robot is taken to stand still.
 class Clearance {
  public:
   explicit Clearance(const BodyConfig& body = {}, const ClearanceConfig& config = {})
-      : body_(body), config_(config), near_(config.blind_m) {}
+      : body_(body), config_(config), near_(config.blind_m), glass_(config.blind_m) {}
 
   /// The newest scan to go by.
   void see(const Scan& scan, const RecentMotion& motion);
   void forget() {
     end_.reset();
     near_.forget();
+    glass_.forget();
   }
+  /// Of glass, from the robot at the end of the newest scan: beams that are not square to it go through.
+  std::vector<Segment> panes() const { return glass_.panes(); }
   /// How much of `twist` is free; nothing of it without a scan. Other motions may be free when this one is
   /// not. The allowed speed depends on the arc, not on how fast it is asked for. REQUIRES: finite.
   ClearWay way(Time now, const Twist& twist, const RecentMotion& motion) const;
@@ -102,6 +106,7 @@ class Clearance {
   BodyConfig body_;
   ClearanceConfig config_;
   NearMemory near_;
+  GlassWatch glass_;
   std::vector<ObstaclePoint> points_;  ///< from the robot at the scan's end
   std::optional<Time> end_;            ///< of the scan
 };

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <optional>
 
-#include <Eigen/Eigenvalues>
+#include "drive/line_fit.h"
 
 namespace dynslam {
 namespace {
@@ -27,59 +27,24 @@ constexpr double kStraight_m = 0.012, kLeastLength_m = 0.03;
 constexpr std::size_t kLeft = 1, kRight = Sight::kSectors - 1;
 /// Where one sees so far behind the wall, it has come to its end.
 constexpr double kBehind_m = 0.05;
-/// The body is no larger than it is said to be, but may be smaller by about so much: what seems to be this
-/// deep in it may be beside it.
-constexpr double kInside_m = 0.02;
 
-struct Line {
-  Vector2 through, along;
-};
-
-/// By least squares of the distances; nothing when it is too short or crooked.
-std::optional<Line> line_of(const std::vector<Vector2>& points) {
-  if (points.size() < kLeastPoints) return std::nullopt;
-  Vector2 mean = Vector2::Zero();
-  for (const Vector2& p : points) mean += p;
-  mean /= static_cast<double>(points.size());
-  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-  for (const Vector2& p : points) spread += (p - mean) * (p - mean).transpose();
-  spread /= static_cast<double>(points.size());
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
-  axes.computeDirect(spread);
-  const double across_m = std::sqrt(std::max(0.0, axes.eigenvalues()(0)));
-  const double length_m = std::sqrt(12.0 * std::max(0.0, axes.eigenvalues()(1)));
-  if (across_m > kStraight_m || length_m < kLeastLength_m) return std::nullopt;
-  return Line{mean, axes.eigenvectors().col(1)};
-}
-
-/// Where one looking in a direction meets the line; nothing when it is behind, or beside.
-std::optional<double> range_to(const Line& line, const Vector2& direction) {
-  const Vector2 normal(-line.along.y(), line.along.x());
-  const double towards = direction.dot(normal);
-  if (std::abs(towards) < 1e-6) return std::nullopt;
-  const double range_m = line.through.dot(normal) / towards;
-  if (range_m <= 0.0) return std::nullopt;
-  return range_m;
-}
-
+/// Nothing when what is seen is too short or crooked.
 std::optional<Line> wall_at(const Vector2& end, const std::vector<Vector2>& near) {
   std::vector<Vector2> piece;
   std::copy_if(near.begin(), near.end(), std::back_inserter(piece),
                [&end](const Vector2& p) { return (p - end).norm() < kPiece_m; });
-  return line_of(piece);
-}
-
-bool is_deep_inside(const BodyConfig& body, const Vector2& p) {
-  return std::abs(p.x()) < body.half_length_m() - kInside_m &&
-         std::abs(p.y()) < body.half_width_m() - kInside_m;
+  if (piece.size() < kLeastPoints) return std::nullopt;
+  const Line line = line_through(piece);
+  if (line.across_m > kStraight_m || line.length_m < kLeastLength_m) return std::nullopt;
+  return line;
 }
 
 }  // namespace
 
-void continue_walls(std::vector<ObstaclePoint>& points, const Sight& sight, const Pose2& robot_T_lidar,
-                    const BodyConfig& body, double blind_m) {
+void continue_walls(std::vector<ObstaclePoint>& points, const Look& look, const BodyConfig& body,
+                    double blind_m) {
   const double sure_m = blind_m + kDubious_m, ends_m = sure_m + kBeyond_m;
-  const Pose2 lidar_T_robot = robot_T_lidar.inverse();
+  const Pose2 lidar_T_robot = look.robot_T_lidar.inverse();
   std::vector<Vector2> near;
   std::array<std::optional<Vector2>, Sight::kSectors> ends;
   for (const ObstaclePoint& p : points) {
@@ -94,9 +59,10 @@ void continue_walls(std::vector<ObstaclePoint>& points, const Sight& sight, cons
       const double angle = Sight::middle_rad(sector);
       const Vector2 direction(std::cos(angle), std::sin(angle));
       const auto range_m = range_to(wall, direction);
-      if (!range_m || *range_m >= ends_m || sight.farthest_m(sector) > *range_m + kBehind_m) return;
-      const Vector2 p = robot_T_lidar * (*range_m * direction);
-      if (!is_deep_inside(body, p)) points.push_back({static_cast<float>(p.x()), static_cast<float>(p.y())});
+      if (!range_m || *range_m >= ends_m || look.sight.farthest_m(sector) > *range_m + kBehind_m) return;
+      const Vector2 p = look.robot_T_lidar * (*range_m * direction);
+      if (!body.contains(p, BodyConfig::kMayBeSmaller_m))
+        points.push_back({static_cast<float>(p.x()), static_cast<float>(p.y())});
     }
   };
   for (std::size_t sector = 0; sector < Sight::kSectors; ++sector) {

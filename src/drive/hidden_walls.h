@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "base/pose2.h"
 #include "drive/body_config.h"
 #include "drive/obstacle_points.h"
 #include "drive/sight.h"
@@ -13,7 +12,7 @@ namespace dynslam {
 /// A wall beside the robot is seen as far as it is not too near for the lidar. What is hidden of it may be
 /// what a corner of the robot runs into: it is taken to go on straight, in those directions from which
 /// nothing comes back. Adds it to the points of a scan, which are from the robot.
-void continue_walls(std::vector<ObstaclePoint>& points, const Sight& sight, const Pose2& robot_T_lidar,
-                    const BodyConfig& body, double blind_m);
+void continue_walls(std::vector<ObstaclePoint>& points, const Look& look, const BodyConfig& body,
+                    double blind_m);
 
 }  // namespace dynslam

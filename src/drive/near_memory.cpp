@@ -5,13 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "drive/hidden_walls.h"
-
 namespace dynslam {
 namespace {
 
-/// Nobody knows where the robot went in a longer time.
-constexpr Duration kLongestGap = std::chrono::milliseconds(500);
 /// What was seen so near outside of the blind zone may have come into it since.
 constexpr double kOutside_m = 0.03;
 /// So long after it was seen last it is taken to be gone: where nothing comes back from far away either.
@@ -26,24 +22,19 @@ constexpr double kBehind_m = 0.06;
 
 }  // namespace
 
-void NearMemory::add_to(std::vector<ObstaclePoint>& points, const Scan& scan, const BodyConfig& body,
-                        const RecentMotion& motion) {
-  const Time end = end_of(scan);
-  const bool knows = end_ && end >= *end_ && end - *end_ <= kLongestGap;
-  const Pose2 now_T_before = knows ? motion.between(*end_, end).inverse() : Pose2{};
-  const Pose2& robot_T_lidar = scan.mount.robot_T_lidar;
+void NearMemory::add_to(std::vector<ObstaclePoint>& points, const Look& look, const BodyConfig& body) {
+  const Sight& sight = look.sight;
+  const Time end = look.end;
+  const Pose2& robot_T_lidar = look.robot_T_lidar;
   const Pose2 lidar_T_robot = robot_T_lidar.inverse();
   const Near before = std::exchange(near_, {});
-  end_ = end;
-
-  const Sight sight(scan, motion.between(scan.stamp, end).yaw);
   for (const ObstaclePoint& p : points) {
     const Vector2 from_lidar = lidar_T_robot * Vector2(p.x_m, p.y_m);
     if (from_lidar.norm() < blind_m_ + kOutside_m)
       near_[Sight::sector_of(from_lidar)] = {{p.x_m, p.y_m}, end, 1};
   }
-  continue_walls(points, sight, robot_T_lidar, body, blind_m_);
-  if (!knows) return;
+  if (!look.before_T_now) return;
+  const Pose2 now_T_before = look.before_T_now->inverse();
   const auto is_gone = [&](const Vector2& from_lidar) {
     const std::size_t sector = Sight::sector_of(from_lidar);
     // Where it can be seen, any return tells of it; nearer, others of its sector may be seen and it is not.
@@ -65,8 +56,7 @@ void NearMemory::add_to(std::vector<ObstaclePoint>& points, const Scan& scan, co
     const double share = was->times >= kStands ? kStoodAt : kCameAt;
     const double nearer = std::min(1.0, share * blind_m_ / from_lidar.norm());
     const Vector2 p = robot_T_lidar * (nearer * from_lidar);
-    const bool own_body = std::abs(p.x()) <= body.half_length_m() && std::abs(p.y()) <= body.half_width_m();
-    if (!own_body) points.push_back({static_cast<float>(p.x()), static_cast<float>(p.y())});
+    if (!body.contains(p)) points.push_back({static_cast<float>(p.x()), static_cast<float>(p.y())});
   }
 }
 

@@ -21,8 +21,7 @@ class NearMemory {
   explicit NearMemory(double blind_m) : blind_m_(blind_m) {}
 
   /// Adds what is remembered to the points of a newer scan, which are as obstacle_points() gives them.
-  void add_to(std::vector<ObstaclePoint>& points, const Scan& scan, const BodyConfig& body,
-              const RecentMotion& motion);
+  void add_to(std::vector<ObstaclePoint>& points, const Look& look, const BodyConfig& body);
   void forget() { near_ = {}; }
 
  private:
@@ -34,8 +33,7 @@ class NearMemory {
   using Near = std::array<std::optional<Seen>, Sight::kSectors>;
 
   double blind_m_;
-  Near near_;                ///< by direction from the lidar
-  std::optional<Time> end_;  ///< of the last scan
+  Near near_;  ///< by direction from the lidar
 };
 
 }  // namespace dynslam

@@ -55,6 +55,8 @@ class PathFollower {
   void halt();
   /// The newest scan.
   void see(const Scan& scan, const RecentMotion& motion) { clearance_.see(scan, motion); }
+  /// Of glass that is seen, from the robot at the end of the newest scan.
+  std::vector<Segment> panes() const { return clearance_.panes(); }
   /// Whether a bumper is pressed, by what was asked for last. To be told of it each time, before halt().
   void feel(bool touches);
   /// What to drive now. `motion` is what was driven since the scan. Stands still and says why when a number

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "base/pose2.h"
 #include "base/scan.h"
@@ -27,6 +28,15 @@ class Sight {
 
  private:
   std::array<double, kSectors> farthest_m_{};
+};
+
+/// A scan that has just come: what one sees, and how the robot moved since the one before; nothing: nobody
+/// knows.
+struct Look {
+  Time end;  ///< of the scan
+  Pose2 robot_T_lidar;
+  Sight sight;
+  std::optional<Pose2> before_T_now;
 };
 
 }  // namespace dynslam

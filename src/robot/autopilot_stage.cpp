@@ -43,6 +43,8 @@ void AutopilotStage::plan_turn() {
     in.is_steered = interruption->is_steered;
     if (!in.is_steered) in.condition = interruption->condition;
   }
+  const auto glass = glass_map_.get().value;
+  if (glass) in.glass_map = *glass;
   const AutopilotStatus& status = autopilot_.turn(now, in);
   errand_ = status.errand;
   wanted_.put({now, status.errand, status.phase == AutopilotPhase::kActive, autopilot_.task(),
@@ -133,8 +135,21 @@ void AutopilotStage::feel(Time now) {
   }
   world_ = world;
   const auto scan = ports_.scan.get();
-  if (scan.value && scan.version != std::exchange(scan_version_, scan.version))
-    follower_.see(*scan.value, motion_);
+  if (!scan.value || scan.version == std::exchange(scan_version_, scan.version)) return;
+  follower_.see(*scan.value, motion_);
+  tell_of_glass(end_of(*scan.value));
+}
+
+void AutopilotStage::tell_of_glass(Time seen) {
+  std::vector<Segment> panes = follower_.panes();
+  if (!world_ || world_->pose.lost) panes.clear();
+  if (!panes.empty()) {
+    const Time known = world_->pose.stamp;
+    const Pose2 since = seen < known ? motion_.between(seen, known).inverse() : motion_.between(known, seen);
+    const Pose2 map_T_seen = world_->pose.map_T_robot * since;
+    for (Segment& pane : panes) pane = {map_T_seen * pane.from, map_T_seen * pane.to};
+  }
+  glass_map_.put(std::move(panes));
 }
 
 Twist AutopilotStage::wanted_twist(Time now, const Wanted& wanted) {

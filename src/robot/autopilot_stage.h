@@ -57,6 +57,7 @@ class AutopilotStage {
   void mind_interruptions(std::uint64_t errand);
   void let_go();
   void feel(Time now);
+  void tell_of_glass(Time seen);
   void follow(const std::optional<DriveTask>& task);
   Twist wanted_twist(Time now, const Wanted& wanted);
   void command(Time now, const Twist& twist, bool gone);
@@ -73,6 +74,7 @@ class AutopilotStage {
   Latest<Wanted> wanted_;
   Latest<FollowReport> report_;
   Latest<Twist> came_;
+  Latest<std::vector<Segment>> glass_map_;
   Latest<Interruption> interruption_;
 
   // Of the commanding turn.

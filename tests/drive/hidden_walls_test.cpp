@@ -35,7 +35,7 @@ DrawnWorld fridge() {
 std::vector<Vector2> hidden_in(const Scan& scan) {
   std::vector<ObstaclePoint> points = obstacle_points(scan, {}, 0.1, {});
   const std::size_t seen = points.size();
-  continue_walls(points, Sight(scan, 0.0), {}, {}, kBlind_m);
+  continue_walls(points, {end_of(scan), {}, Sight(scan, 0.0), {}}, {}, kBlind_m);
   std::vector<Vector2> hidden;
   for (std::size_t i = seen; i < points.size(); ++i) hidden.emplace_back(points[i].x_m, points[i].y_m);
   return hidden;

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/time.h"
+#include "drive/segment.h"
+
+namespace dynslam {
+
+/// Panes of glass, as they were met squarely. The map forgets them, as other beams go through: they are kept
+/// out of as areas are that people drew. In the map's frame as it was then. One thread.
+class GlassMap {
+ public:
+  /// Panes that are seen now, from a robot that is at a place and therefore not in one. Returns whether
+  /// anything changed worth planning anew.
+  bool see(Time now, std::span<const Segment> panes_map, const Vector2& robot_map);
+  /// They shut the way, and may be open by now: they count for nothing until trust(). Returns whether that
+  /// changes anything.
+  bool doubt();
+  bool trust();
+
+  /// Thin outlines in the map.
+  std::vector<std::vector<Vector2>> outlines_map() const;
+
+ private:
+  struct Pane {
+    Segment at_map;
+    Time seen;
+  };
+  std::vector<Pane> panes_;
+  bool doubted_ = false;
+};
+
+}  // namespace dynslam

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "drive/glass_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "drive/line_fit.h"
+
+namespace dynslam {
+namespace {
+
+constexpr double kFar_m = 2.2;
+/// Points of one thing follow on each other within so much; glass returns some of the beams only.
+constexpr double kGap_rad = 0.06, kGap_m = 0.08, kGapShare = 0.06;
+constexpr std::size_t kLeastPoints = 6;
+/// So straight it is, and by so much of the range more.
+constexpr double kStraight_m = 0.012, kStraightShare = 0.006;
+/// Of normal incidence: more aslant a beam goes through.
+constexpr double kSquare_rad = 0.3, kNearlySquare_rad = 0.035;
+/// So far beside the patch one sees through, and so far behind.
+constexpr double kBeside_rad[] = {0.08, 0.14};
+constexpr double kBehind_m = 0.25;
+// When patches are of one thing,
+constexpr double kSameLine_m = 0.05, kNext_m = 0.12;
+// and have wandered.
+constexpr double kWandered_m = 0.2, kWanderedShare = 2.0, kLeastPatch_m = 0.1;
+constexpr Duration kForgets = std::chrono::milliseconds(1500), kForgetsHidden = std::chrono::seconds(10);
+constexpr double kHiddenWithin_m = 0.08;  ///< and the blind zone
+// What is added of a pane: about the robot, and beyond what was seen of it.
+constexpr double kNear_m = 1.0, kAbout_m = 0.35, kBeyond_m = 0.3, kStep_m = 0.02;
+constexpr std::size_t kMostTracks = 64;
+
+using Points = std::vector<Vector2>;
+
+/// Things that stand apart, as one looks round.
+std::vector<Points> things_of(std::span<const ObstaclePoint> points, const Pose2& lidar_T_robot) {
+  std::vector<Points> things;
+  Vector2 last = Vector2::Zero();
+  for (const ObstaclePoint& point : points) {
+    const Vector2 p = lidar_T_robot * Vector2(point.x_m, point.y_m);
+    const double range_m = p.norm();
+    if (range_m > kFar_m) continue;
+    const double turned_rad = std::abs(std::atan2(last.x() * p.y() - last.y() * p.x(), last.dot(p)));
+    const bool goes_on =
+        !things.empty() && turned_rad < kGap_rad && (p - last).norm() < kGap_m + kGapShare * range_m;
+    if (!goes_on) things.emplace_back();
+    things.back().push_back(p);
+    last = p;
+  }
+  return things;
+}
+
+/// Where one looks squarely at a thing, and past it on both sides.
+std::optional<Segment> patch_of(const Points& thing, const Sight& sight) {
+  if (thing.size() < kLeastPoints) return std::nullopt;
+  const Line line = line_through(thing);
+  const Vector2 foot = line.through - line.along * line.along.dot(line.through);
+  const double away_m = foot.norm();
+  if (away_m < 0.05 || line.across_m > kStraight_m + kStraightShare * away_m) return std::nullopt;
+  double low = 1e9, high = -1e9;
+  for (const Vector2& p : thing) {
+    low = std::min(low, line.along.dot(p));
+    high = std::max(high, line.along.dot(p));
+  }
+  const double from_rad = std::atan2(low, away_m), to_rad = std::atan2(high, away_m);
+  if (from_rad < -kSquare_rad || to_rad > kSquare_rad) return std::nullopt;
+  if (from_rad > kNearlySquare_rad || to_rad < -kNearlySquare_rad) return std::nullopt;
+  for (const double beside : kBeside_rad) {
+    for (const double at : {from_rad - beside, to_rad + beside}) {
+      const Vector2 there = foot + line.along * (away_m * std::tan(at));
+      const double sees_m = sight.farthest_m(Sight::sector_of(there));
+      if (sees_m > 0.0 && sees_m < there.norm() + kBehind_m) return std::nullopt;
+    }
+  }
+  return Segment{foot + low * line.along, foot + high * line.along};
+}
+
+}  // namespace
+
+void GlassWatch::see(std::span<const ObstaclePoint> points, const Look& look) {
+  lidar_ = look.robot_T_lidar.translation();
+  if (!look.before_T_now) tracks_.clear();
+  const Pose2 now_T_before = look.before_T_now.value_or(Pose2{}).inverse();
+  std::erase_if(tracks_, [&](Track& t) {
+    for (Vector2* p : {&t.all.from, &t.all.to, &t.patch.from, &t.patch.to}) *p = now_T_before * *p;
+    const bool hidden = off_line_m(t.patch, lidar_) < blind_m_ + kHiddenWithin_m;
+    return look.end - t.seen > (hidden ? kForgetsHidden : kForgets);
+  });
+  for (const Points& thing : things_of(points, look.robot_T_lidar.inverse()))
+    if (const auto patch = patch_of(thing, look.sight))
+      follow({look.robot_T_lidar * patch->from, look.robot_T_lidar * patch->to}, look.end);
+}
+
+void GlassWatch::follow(const Segment& patch, Time now) {
+  if (patch.length_m() < 0.01) return;
+  for (Track& t : tracks_) {
+    const auto both = joined(t.all, patch, kSameLine_m, kNext_m);
+    if (!both) continue;
+    t.all = *both;
+    t.patch = patch;
+    t.seen = now;
+    const double wandered_m =
+        std::max(kWandered_m, kWanderedShare * std::max(kLeastPatch_m, patch.length_m()));
+    t.is_pane = t.is_pane || t.all.length_m() > wandered_m;
+    return;
+  }
+  if (tracks_.size() < kMostTracks) tracks_.push_back({patch, patch, now, false});
+}
+
+void GlassWatch::add_to(std::vector<ObstaclePoint>& points, const BodyConfig& body) const {
+  for (const Track& t : tracks_) {
+    if (!t.is_pane || off_line_m(t.patch, lidar_) > kNear_m) continue;
+    const double here = span_along(t.patch, {lidar_, lidar_}).low;
+    const Span all = span_along(t.patch, t.all);
+    const double low = std::max(here - kAbout_m, all.low - kBeyond_m);
+    const double high = std::min(here + kAbout_m, all.high + kBeyond_m);
+    for (double at = low; at <= high; at += kStep_m) {
+      const Vector2 p = on_line(t.patch, {at, at}).from;
+      if (!body.contains(p, BodyConfig::kMayBeSmaller_m))
+        points.push_back({static_cast<float>(p.x()), static_cast<float>(p.y())});
+    }
+  }
+}
+
+std::vector<Segment> GlassWatch::panes() const {
+  std::vector<Segment> panes;
+  for (const Track& t : tracks_)
+    if (t.is_pane) panes.push_back(t.all);
+  return panes;
+}
+
+}  // namespace dynslam

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "drive/body_config.h"
+#include "drive/obstacle_points.h"
+#include "drive/segment.h"
+#include "drive/sight.h"
+
+namespace dynslam {
+
+/// Beams go through glass unless they meet it squarely: of a pane a lidar sees a small patch, straight across
+/// from where it is, which wanders along the pane as the robot moves. A post that is seen squarely stays
+/// where it is. What was seen to wander is taken for a pane, and to go on beside the patch for as far as the
+/// robot's corners reach. One thread.
+class GlassWatch {
+ public:
+  explicit GlassWatch(double blind_m) : blind_m_(blind_m) {}
+
+  /// `points`: of the scan, in the order of its beams, from the robot.
+  void see(std::span<const ObstaclePoint> points, const Look& look);
+  /// Adds what is not seen of panes that are near.
+  void add_to(std::vector<ObstaclePoint>& points, const BodyConfig& body) const;
+  void forget() { tracks_.clear(); }
+
+  /// What was seen squarely of panes, from the robot at the end of that scan.
+  std::vector<Segment> panes() const;
+
+ private:
+  /// Patches on one line, one after the other.
+  struct Track {
+    Segment all, patch;
+    Time seen;
+    bool is_pane = false;
+  };
+  void follow(const Segment& patch, Time now);
+
+  double blind_m_;
+  Vector2 lidar_ = Vector2::Zero();  ///< where it is on the robot
+  std::vector<Track> tracks_;
+};
+
+}  // namespace dynslam
