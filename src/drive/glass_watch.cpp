@@ -24,11 +24,14 @@ constexpr double kBehind_m = 0.25;
 // When patches are of one thing,
 constexpr double kSameLine_m = 0.05, kNext_m = 0.12;
 // and have wandered.
-constexpr double kWandered_m = 0.2, kWanderedShare = 2.0, kLeastPatch_m = 0.1;
-constexpr Duration kForgets = std::chrono::milliseconds(1500), kForgetsHidden = std::chrono::seconds(10);
+constexpr double kLeast_m = 0.25, kLeastPatches = 2.0, kLag = 0.3, kLag_m = 0.03;
+constexpr Duration kSureAfter = std::chrono::milliseconds(600);
+constexpr Duration kForgets = std::chrono::milliseconds(1500), kForgetsHidden = std::chrono::seconds(30);
 constexpr double kHiddenWithin_m = 0.08;  ///< and the blind zone
 // What is added of a pane: about the robot, and beyond what was seen of it.
 constexpr double kNear_m = 1.0, kAbout_m = 0.35, kBeyond_m = 0.3, kStep_m = 0.02;
+/// Of what is as near as this only the beams come back that noise makes longer.
+constexpr double kMayBeNearer_m = 0.015;
 constexpr std::size_t kMostTracks = 64;
 
 using Points = std::vector<Vector2>;
@@ -76,14 +79,18 @@ std::optional<Segment> patch_of(const Points& thing, const Sight& sight) {
   return Segment{foot + low * line.along, foot + high * line.along};
 }
 
+Vector2 middle_of(const Segment& s) { return 0.5 * (s.from + s.to); }
+
 }  // namespace
 
 void GlassWatch::see(std::span<const ObstaclePoint> points, const Look& look) {
+  end_ = look.end;
   lidar_ = look.robot_T_lidar.translation();
   if (!look.before_T_now) tracks_.clear();
   const Pose2 now_T_before = look.before_T_now.value_or(Pose2{}).inverse();
   std::erase_if(tracks_, [&](Track& t) {
-    for (Vector2* p : {&t.all.from, &t.all.to, &t.patch.from, &t.patch.to}) *p = now_T_before * *p;
+    for (Vector2* p : {&t.all.from, &t.all.to, &t.patch.from, &t.patch.to, &t.first, &t.lidar_first})
+      *p = now_T_before * *p;
     const bool hidden = off_line_m(t.patch, lidar_) < blind_m_ + kHiddenWithin_m;
     return look.end - t.seen > (hidden ? kForgetsHidden : kForgets);
   });
@@ -100,23 +107,44 @@ void GlassWatch::follow(const Segment& patch, Time now) {
     t.all = *both;
     t.patch = patch;
     t.seen = now;
-    const double wandered_m =
-        std::max(kWandered_m, kWanderedShare * std::max(kLeastPatch_m, patch.length_m()));
-    t.is_pane = t.is_pane || t.all.length_m() > wandered_m;
+    t.longest_m = std::max(t.longest_m, patch.length_m());
+    if (!wanders_as_glass(t)) {
+      t.pane_since.reset();
+    } else if (!t.pane_since) {
+      t.pane_since = now;
+    }
     return;
   }
-  if (tracks_.size() < kMostTracks) tracks_.push_back({patch, patch, now, false});
+  if (tracks_.size() >= kMostTracks) return;
+  tracks_.push_back({patch, patch, now, middle_of(patch), lidar_, patch.length_m(), {}});
+}
+
+bool GlassWatch::wanders_as_glass(const Track& t) const {
+  const double length_m = t.all.length_m();
+  if (length_m < std::max(kLeast_m, kLeastPatches * t.longest_m)) return false;
+  const Vector2 along = (t.all.to - t.all.from) / length_m;
+  const double wandered_m = along.dot(middle_of(t.patch) - t.first);
+  const double moved_m = along.dot(lidar_ - t.lidar_first);
+  const double lag_m = kLag * std::abs(moved_m) + kLag_m;
+  return std::abs(wandered_m - moved_m) < (t.pane_since ? 2.0 * lag_m : lag_m);
+}
+
+/// Somebody who walks beside the robot does not do so for long.
+bool GlassWatch::is_sure(const Track& t) const {
+  return t.pane_since && t.seen - *t.pane_since > kSureAfter && t.seen == end_;
 }
 
 void GlassWatch::add_to(std::vector<ObstaclePoint>& points, const BodyConfig& body) const {
   for (const Track& t : tracks_) {
-    if (!t.is_pane || off_line_m(t.patch, lidar_) > kNear_m) continue;
+    if (!t.pane_since || off_line_m(t.patch, lidar_) > kNear_m) continue;
     const double here = span_along(t.patch, {lidar_, lidar_}).low;
     const Span all = span_along(t.patch, t.all);
     const double low = std::max(here - kAbout_m, all.low - kBeyond_m);
     const double high = std::min(here + kAbout_m, all.high + kBeyond_m);
+    const Vector2 foot = on_line(t.patch, {here, here}).from;
+    const Vector2 nearer = kMayBeNearer_m * (lidar_ - foot).normalized();
     for (double at = low; at <= high; at += kStep_m) {
-      const Vector2 p = on_line(t.patch, {at, at}).from;
+      const Vector2 p = on_line(t.patch, {at, at}).from + nearer;
       if (!body.contains(p, BodyConfig::kMayBeSmaller_m))
         points.push_back({static_cast<float>(p.x()), static_cast<float>(p.y())});
     }
@@ -126,7 +154,7 @@ void GlassWatch::add_to(std::vector<ObstaclePoint>& points, const BodyConfig& bo
 std::vector<Segment> GlassWatch::panes() const {
   std::vector<Segment> panes;
   for (const Track& t : tracks_)
-    if (t.is_pane) panes.push_back(t.all);
+    if (is_sure(t)) panes.push_back(t.all);
   return panes;
 }
 

@@ -13,9 +13,9 @@
 namespace dynslam {
 
 /// Beams go through glass unless they meet it squarely: of a pane a lidar sees a small patch, straight across
-/// from where it is, which wanders along the pane as the robot moves. A post that is seen squarely stays
-/// where it is. What was seen to wander is taken for a pane, and to go on beside the patch for as far as the
-/// robot's corners reach. One thread.
+/// from where it is, which wanders along the pane just as the robot moves along it. A post stays where it is,
+/// what is round lags behind, who walks goes his own way. A pane is taken to go on beside the patch for as
+/// far as the robot's corners reach. One thread.
 class GlassWatch {
  public:
   explicit GlassWatch(double blind_m) : blind_m_(blind_m) {}
@@ -26,7 +26,7 @@ class GlassWatch {
   void add_to(std::vector<ObstaclePoint>& points, const BodyConfig& body) const;
   void forget() { tracks_.clear(); }
 
-  /// What was seen squarely of panes, from the robot at the end of that scan.
+  /// What was seen squarely of panes that are surely some, from the robot at the end of that scan.
   std::vector<Segment> panes() const;
 
  private:
@@ -34,11 +34,16 @@ class GlassWatch {
   struct Track {
     Segment all, patch;
     Time seen;
-    bool is_pane = false;
+    Vector2 first, lidar_first;  ///< the middle of the first patch, and where the lidar was then
+    double longest_m = 0.0;      ///< of the patches
+    std::optional<Time> pane_since;
   };
   void follow(const Segment& patch, Time now);
+  bool wanders_as_glass(const Track& track) const;
+  bool is_sure(const Track& track) const;
 
   double blind_m_;
+  Time end_;                         ///< of the last scan
   Vector2 lidar_ = Vector2::Zero();  ///< where it is on the robot
   std::vector<Track> tracks_;
 };

@@ -81,10 +81,6 @@ TEST(GlassWatch, KeepsTheRobotFromDrivingIntoItAslant) {
     EXPECT_EQ(walk.clearance.way(walk.now, {-0.2, 0.0}, walk.motion).share, 1.0) << yaw;
     while (corner_y() < 1.0 - 0.015) walk.step();
     EXPECT_EQ(walk.clearance.way(walk.now, ahead, walk.motion).share, 0.0) << yaw;
-    Walk without = walk;
-    without.glass = {};
-    without.steps(110);
-    EXPECT_TRUE(without.clearance.panes().empty()) << "gone, and forgotten";
   }
 }
 
@@ -104,10 +100,36 @@ TEST(GlassWatch, TakesNoOtherThingForAPane) {
   }
 }
 
+TEST(GlassWatch, ForgetsWhatItSeesNoMoreUnlessItIsTooNearToBeSeen) {
+  for (const double away_m : {0.5, 0.22}) {
+    Walk walk({-2, 1.0 - away_m, 0.0});
+    GlassWatch watch(0.2);
+    Time now{};
+    const auto added = [&] {
+      std::vector<ObstaclePoint> points;
+      watch.add_to(points, {});
+      return points.size();
+    };
+    for (int i = 0; i < 30; ++i) {
+      now += milliseconds(100);
+      const Scan seen =
+          scan_through(walk.solid, walk.glass, now, {-2 + 0.02 * i, 1.0 - away_m, 0.0}, walk.random);
+      watch.see(obstacle_points(seen, {}, 0.1, {}), {now, {}, Sight(seen, 0.0), Pose2{0.02, 0.0, 0.0}});
+    }
+    EXPECT_GT(added(), 10U);
+    const Scan nothing = scan_of(DrawnWorld{kHall, {}});
+    for (int i = 0; i < 20; ++i) {
+      now += milliseconds(100);
+      watch.see({}, {now, {}, Sight(nothing, 0.0), Pose2{}});
+    }
+    EXPECT_EQ(added() > 0, away_m < 0.3);
+    watch.see({}, {now, {}, Sight(nothing, 0.0), std::nullopt});
+    EXPECT_EQ(added(), 0U) << "nobody knows where it is";
+  }
+}
+
 TEST(GlassWatch, GoesOnALittleBesideThePatchOnly) {
   Walk walk({-2, 0.6, 0.0});
-  walk.steps(30);
-  const Scan scan = scan_through(walk.solid, walk.glass, walk.now, walk.at, walk.random);
   GlassWatch watch(0.2);
   for (int i = 0; i < 30; ++i) {
     const Pose2 at{-2 + 0.02 * i, 0.6, 0.0};
