@@ -22,9 +22,9 @@ constexpr double kSquare_rad = 0.3, kNearlySquare_rad = 0.035;
 constexpr double kBeside_rad[] = {0.08, 0.14};
 constexpr double kBehind_m = 0.25;
 // When patches are of one thing,
-constexpr double kSameLine_m = 0.05, kNext_m = 0.12;
-// and have wandered.
-constexpr double kLeast_m = 0.25, kLeastPatches = 2.0, kLag = 0.3, kLag_m = 0.03;
+constexpr double kSameLine_m = 0.05, kNext_m = 0.12, kKeeps_m = 0.5;
+// and wander: so far the robot has moved along them, and so much they may lag behind.
+constexpr double kMoved_m = 0.15, kLag = 0.3, kLag_m = 0.03;
 constexpr Duration kSureAfter = std::chrono::milliseconds(600);
 constexpr Duration kForgets = std::chrono::milliseconds(1500), kForgetsHidden = std::chrono::seconds(30);
 constexpr double kHiddenWithin_m = 0.08;  ///< and the blind zone
@@ -104,10 +104,12 @@ void GlassWatch::follow(const Segment& patch, Time now) {
   for (Track& t : tracks_) {
     const auto both = joined(t.all, patch, kSameLine_m, kNext_m);
     if (!both) continue;
-    t.all = *both;
+    // What was long ago is no longer where the robot's motion is thought to have carried it.
+    const Span now_at = span_along(*both, patch);
+    t.all = on_line(
+        *both, {std::max(0.0, now_at.low - kKeeps_m), std::min(both->length_m(), now_at.high + kKeeps_m)});
     t.patch = patch;
     t.seen = now;
-    t.longest_m = std::max(t.longest_m, patch.length_m());
     if (!wanders_as_glass(t)) {
       t.pane_since.reset();
     } else if (!t.pane_since) {
@@ -116,17 +118,16 @@ void GlassWatch::follow(const Segment& patch, Time now) {
     return;
   }
   if (tracks_.size() >= kMostTracks) return;
-  tracks_.push_back({patch, patch, now, middle_of(patch), lidar_, patch.length_m(), {}});
+  tracks_.push_back({patch, patch, now, middle_of(patch), lidar_, {}});
 }
 
 bool GlassWatch::wanders_as_glass(const Track& t) const {
-  const double length_m = t.all.length_m();
-  if (length_m < std::max(kLeast_m, kLeastPatches * t.longest_m)) return false;
-  const Vector2 along = (t.all.to - t.all.from) / length_m;
+  const Vector2 along = (t.all.to - t.all.from) / t.all.length_m();
   const double wandered_m = along.dot(middle_of(t.patch) - t.first);
   const double moved_m = along.dot(lidar_ - t.lidar_first);
   const double lag_m = kLag * std::abs(moved_m) + kLag_m;
-  return std::abs(wandered_m - moved_m) < (t.pane_since ? 2.0 * lag_m : lag_m);
+  if (t.pane_since) return std::abs(wandered_m - moved_m) < 2.0 * lag_m;
+  return std::abs(moved_m) > kMoved_m && std::abs(wandered_m - moved_m) < lag_m;
 }
 
 /// Somebody who walks beside the robot does not do so for long.

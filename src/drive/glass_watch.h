@@ -35,7 +35,6 @@ class GlassWatch {
     Segment all, patch;
     Time seen;
     Vector2 first, lidar_first;  ///< the middle of the first patch, and where the lidar was then
-    double longest_m = 0.0;      ///< of the patches
     std::optional<Time> pane_since;
   };
   void follow(const Segment& patch, Time now);
