@@ -10,8 +10,9 @@
 
 #include <linux/i2c-dev.h>
 #include <linux/i2c.h>
-#include <pthread.h>
 #include <umockdev.h>
+
+#include "drivers/real_time.h"
 
 namespace dynslam::test {
 namespace {
@@ -58,17 +59,6 @@ std::string file_of(int bus) { return "/dev/i2c-" + std::to_string(bus); }
 void connect(UMockdevIoctlBase* handler, const char* signal,
              int (*call)(UMockdevIoctlBase*, UMockdevIoctlClient*, void*), void* self) {
   g_signal_connect(handler, signal, G_CALLBACK(call), self);
-}
-
-/// Called in umockdev's thread, which answers in a kernel's stead: so it comes before any thread of a
-/// program, where this user may have real-time threads at all. A busy computer would else seem to have a slow
-/// bus.
-void answer_as_a_kernel_does() {
-  static thread_local const bool done = [] {
-    const sched_param above{sched_get_priority_max(SCHED_FIFO)};
-    return pthread_setschedparam(pthread_self(), SCHED_FIFO, &above) == 0;
-  }();
-  static_cast<void>(done);
 }
 
 }  // namespace
@@ -124,7 +114,7 @@ I2cChip* MockI2cBuses::chip_at(UMockdevIoctlClient* client, int address) {
 I2cChip* MockI2cBuses::chip_of(UMockdevIoctlClient* client) { return chip_at(client, addresses_[client]); }
 
 int MockI2cBuses::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, void* self) {
-  answer_as_a_kernel_does();
+  be_no_part_of_the_program();
   auto& buses = *static_cast<MockI2cBuses*>(self);
   Answer answer;
   {
@@ -136,7 +126,7 @@ int MockI2cBuses::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, void
 }
 
 int MockI2cBuses::on_read(UMockdevIoctlBase*, UMockdevIoctlClient* client, void* self) {
-  answer_as_a_kernel_does();
+  be_no_part_of_the_program();
   auto& buses = *static_cast<MockI2cBuses*>(self);
   const auto into = buffer_of(client);
   int error = EREMOTEIO;
@@ -149,7 +139,7 @@ int MockI2cBuses::on_read(UMockdevIoctlBase*, UMockdevIoctlClient* client, void*
 }
 
 int MockI2cBuses::on_write(UMockdevIoctlBase*, UMockdevIoctlClient* client, void* self) {
-  answer_as_a_kernel_does();
+  be_no_part_of_the_program();
   auto& buses = *static_cast<MockI2cBuses*>(self);
   const auto bytes = buffer_of(client);
   int error = EREMOTEIO;

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "base/angles.h"
+#include "drivers/real_time.h"
 
 namespace dynslam::test {
 namespace {
@@ -137,6 +138,7 @@ int RplidarEmulator::resets() const {
 }
 
 void RplidarEmulator::run(const std::stop_token& stop) {
+  be_no_part_of_the_program();
   while (!stop.stop_requested()) {
     int fd = -1;
     Time wake = clock_.now() + milliseconds(2);
