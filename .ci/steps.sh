@@ -252,7 +252,9 @@ fresh_debian() {
     began=$SECONDS
     # shellcheck disable=SC2016 # for the inner shell
     unshare --mount --pid --fork --kill-child bash -c '
-      mount --bind "$1" "$2/root/ccache" && mount -t proc proc "$2/proc" && shift && exec chroot "$@"' enter \
+      mount --bind "$1" "$2/root/ccache" && mount -t proc proc "$2/proc" &&
+        mount -t devpts -o newinstance,ptmxmode=0666 devpts "$2/dev/pts" && mount --bind "$2/dev/pts/ptmx" "$2/dev/ptmx" &&
+        shift && exec chroot "$@"' enter \
       "$cache" "$root" /usr/bin/env -i NODE_EXTRA_CA_CERTS=/root/as-outside.crt HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin \
       CCACHE_DIR=/root/ccache CMAKE_BUILD_PARALLEL_LEVEL="$CMAKE_BUILD_PARALLEL_LEVEL" \
       bash -c "/root/dynslam/toolchain/host.sh $job"
