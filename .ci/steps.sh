@@ -206,8 +206,8 @@ step_tidy() {
 
 # FILE DIRECTORY COMMAND: how it is compiled.
 tidy() {
-  local text mark
-  text=$(cd "$2" && eval "$(sed -E 's/ -o [^ ]+//; s/ -c / -E /' <<<"$3")" | sed "s,$PWD/,,g") || return 1
+  local text mark top=$PWD
+  text=$(cd "$2" && eval "$(sed -E 's/ -o [^ ]+//; s/ -c / -E /' <<<"$3")" | sed "s,$top/,,g") || return 1
   mark=$tidied/$({ clang-tidy-14 --version && cat .clang-tidy && echo "$text"; } | sha256sum | cut -d' ' -f1)
   [[ -e $mark ]] || { clang-tidy-14 --quiet -p build/clang "$1" 2>/dev/null && touch "$mark"; }
 }
