@@ -397,6 +397,6 @@ std::uint64_t WebServer::refused() const { return implementation_->book.refused(
 extern "C" int pthread_attr_setstacksize(pthread_attr_t* attributes, std::size_t size) noexcept {
   using Set = int (*)(pthread_attr_t*, std::size_t);
   constexpr std::size_t kLeast = std::size_t{512} * 1024;
-  static const auto set = reinterpret_cast<Set>(dlsym(RTLD_NEXT, "pthread_attr_setstacksize"));
-  return set != nullptr ? set(attributes, std::max(size, kLeast)) : ENOSYS;
+  static const auto kSet = reinterpret_cast<Set>(dlsym(RTLD_NEXT, "pthread_attr_setstacksize"));
+  return kSet != nullptr ? kSet(attributes, std::max(size, kLeast)) : ENOSYS;
 }

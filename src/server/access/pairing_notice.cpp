@@ -20,8 +20,8 @@ int rank_of(const IpAddress& address) {
 }
 
 const IpNetwork& link_local() {
-  static const IpNetwork network = *parse_network("fe80::/10");
-  return network;
+  static const IpNetwork kNetwork = *parse_network("fe80::/10");
+  return kNetwork;
 }
 
 bool is_dark(const QRcode& code, int x, int y) {
