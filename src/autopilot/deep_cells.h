@@ -13,7 +13,7 @@ namespace dynslam {
 using WideRow = std::array<std::uint64_t, 3>;
 using ChunkWindow = std::array<WideRow, 3 * kChunkSide>;
 
-inline constexpr int kMostDepth = 32, kBeside = 4;  ///< cells
+inline constexpr int kMostDepth = 32, kBeside = 24;  ///< cells
 
 /// Leaves the cells that lie in some square of `side` cells all of which are in the set (the opening of the
 /// set by that square). Holds for the middle chunk and for kBeside cells around it. REQUIRES: 1 <= side <=

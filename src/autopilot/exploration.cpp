@@ -92,7 +92,7 @@ std::vector<Exploration::Ranked> Exploration::frontiers_reached(Time now, std::s
   left_out_ = {};
   std::vector<Ranked> found;
   for (const Frontier& f : frontiers) {
-    if (!f.middle_map.allFinite() || !is_steady(now, f.middle_map)) continue;
+    if (!f.middle_map.allFinite() || !counts(now, f.middle_map)) continue;
     std::optional<Vector2> stand_map = reach.nearest(f.middle_map, config_.stand_within_m);
     const bool is_shut_off = !stand_map;
     if (is_left_alone(now, f, is_shut_off)) continue;
@@ -106,14 +106,18 @@ std::vector<Exploration::Ranked> Exploration::frontiers_reached(Time now, std::s
     const TriedPlaces::Tried* tried = frontiers_.find(f.middle_map);
     const int tries = tried ? tried->tries : 0;
     const double later_m = (is_shut_off ? kShutOffCost_m : 0.0) + config_.retry_cost_m * tries;
+    // What is shut off from so near lies behind a leg of furniture, or a door that was waited for already.
+    const bool is_near = (*stand_map - f.middle_map).norm() <= config_.stand_within_m;
+    const bool may_open = is_shut_off && !(once_ && is_near);
     found.push_back(
         {*route_m - config_.gain_weight * f.extent_m + later_m,
-         {PlaceKind::kFrontier, f.middle_map, *stand_map, *route_m, f.extent_m, is_shut_off, tries}});
+         {PlaceKind::kFrontier, f.middle_map, *stand_map, *route_m, f.extent_m, may_open, tries}});
   }
   return found;
 }
 
 /// A frontier is one of before when it is near to where that was. Those of the first time were always there.
+/// Of what was chosen the rest is worth it too.
 void Exploration::see(Time now, std::span<const Frontier> frontiers) {
   std::vector<Seen> seen;
   seen.reserve(frontiers.size());
@@ -122,15 +126,17 @@ void Exploration::see(Time now, std::span<const Frontier> frontiers) {
     Time since = seen_.empty() ? Time::min() : now;
     for (const Seen& s : seen_)
       if ((s.middle_map - f.middle_map).norm() <= near_m) since = std::min(since, s.since);
-    seen.push_back({f.middle_map, since});
+    const bool is_chosen = chosen_ && chosen_->kind == PlaceKind::kFrontier &&
+                           (chosen_->point_map - f.middle_map).norm() <= near_m;
+    seen.push_back({f.middle_map, since, is_chosen || !f.is_rest});
   }
   seen_ = std::move(seen);
 }
 
-bool Exploration::is_steady(Time now, const Vector2& middle_map) const {
+bool Exploration::counts(Time now, const Vector2& middle_map) const {
   const auto seen =
       std::find_if(seen_.begin(), seen_.end(), [&](const Seen& s) { return s.middle_map == middle_map; });
-  return seen != seen_.end() &&
+  return seen != seen_.end() && seen->is_worth_it &&
          (seen->since == Time::min() || now - seen->since >= from_seconds(config_.steady_s));
 }
 
@@ -145,8 +151,8 @@ bool Exploration::is_left_alone(Time now, const Frontier& frontier, bool is_shut
   }
   if (tried->until <= now || (tried->last_try == InVain::kShut && !is_shut_off)) return false;
   ++left_out_.waiting;
-  if (tried->last_try != InVain::kSeen)
-    left_out_.next = std::min(left_out_.next.value_or(tried->until), tried->until);
+  const bool is_waited_for = tried->last_try != InVain::kSeen && (!once_ || frontier.extent_m >= kDoor_m);
+  if (is_waited_for) left_out_.next = std::min(left_out_.next.value_or(tried->until), tried->until);
   return true;
 }
 

@@ -105,7 +105,7 @@ class Exploration {
                                        const GridSnapshot& map, const Reachability& reach) const;
   std::vector<Ranked> old_places(Time now, const VisitMap& visits, const Reachability& reach) const;
   void see(Time now, std::span<const Frontier> frontiers);
-  bool is_steady(Time now, const Vector2& middle_map) const;
+  bool counts(Time now, const Vector2& middle_map) const;
   bool is_left_alone(Time now, const Frontier& frontier, bool is_shut_off);
   void stay_with_chosen(std::vector<Ranked>& found) const;
 
@@ -114,6 +114,7 @@ class Exploration {
   struct Seen {
     Vector2 middle_map;
     Time since;
+    bool is_worth_it;
   };
   std::vector<Seen> seen_;  ///< the frontiers there are
   bool once_ = false;

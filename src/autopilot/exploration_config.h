@@ -7,10 +7,11 @@ namespace dynslam {
 
 /// Section [exploration] of the configuration: what counts as a frontier, and which one is gone to.
 struct ExplorationConfig {
-  double least_depth_m = 0.25;
+  double least_depth_m = 0.6;
+  double deep_within_m = 0.2;
   double least_width_m = 0.1;
   double least_length_m = 0.4;
-  double last_look_length_m = 0.3;
+  double last_look_length_m = 0.2;
   double least_extent_m = 0.3;
   double most_extent_m = 3.0;
   double merge_within_m = 0.2;
@@ -28,6 +29,7 @@ struct ExplorationConfig {
   static void fields(Self& self, Visit&& visit) {
     visit(Field{"least_depth_m", "the unknown counts where a square of this side fits into it", 0.0, 1.0},
           self.least_depth_m);
+    visit(Field{"deep_within_m", "and this far around such a square", 0.0, 0.4}, self.deep_within_m);
     visit(Field{"least_width_m", "the free counts where a square of this side fits into it", 0.0, 1.0},
           self.least_width_m);
     visit(Field{"least_length_m", "a frontier has cells for a line of this length", 0.0, 10.0},

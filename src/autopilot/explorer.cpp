@@ -120,7 +120,8 @@ void Explorer::find_places(Time now, const Vector2& robot_map, const Costmap& co
   shut_.clear();
   for (const Frontier& f : frontiers) {
     if (!std::isinf(looked_m) || f.extent_m < kDoor_m || exploration_.was_looked_at(f.middle_map)) continue;
-    if (reach.nearest(f.middle_map, kSeenFrom_m) || !is_near_any(once_reachable_, f.middle_map)) continue;
+    if (f.is_rest || lengths->nearest_reached(f.middle_map, kSeenFrom_m)) continue;
+    if (!is_near_any(once_reachable_, f.middle_map)) continue;
     const auto before_it = lengths->nearest_reached(f.middle_map, kBeforeDoor_m);
     shut_.push_back({PlaceKind::kOld, f.middle_map, before_it.value_or(f.middle_map),
                      before_it ? lengths->length_m(*before_it).value_or(0.0) : kNoWay_m});

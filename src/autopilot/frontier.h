@@ -16,6 +16,7 @@ struct Frontier {
   Vector2 middle_map;     ///< of its cells the one nearest to their mean; free
   double extent_m = 0.0;  ///< the diagonal of the rectangle around it
   std::size_t cells = 0;
+  bool is_rest = false;  ///< less than one sets out for, but one that is on its way goes on
 };
 
 /// What frontier cells make up: those that touch, corners too, are one; what is too long is cut across its

@@ -13,9 +13,9 @@ namespace dynslam {
 namespace {
 
 constexpr CellTile kClear{};
-/// Cells. Beams that end here and there leave the edge of the unknown ragged: too thin for what is deep.
-constexpr int kRim = 2;
-static_assert(kRim < kBeside);
+/// Of a frontier that the robot is on its way to so much is left until it counts as seen: the rest of its
+/// cells come and go while it drives.
+constexpr double kRest = 0.5;
 
 constexpr CellTile full_tile() {
   CellTile tile{};
@@ -91,6 +91,7 @@ std::size_t FrontierMap::update(Time now, const GridSnapshot& map) {
     last_ = {};
   }
   depth_ = cells_for(config_.least_depth_m, map.cell_size_m());
+  within_ = std::min(static_cast<int>(config_.deep_within_m / map.cell_size_m() + 0.5), kBeside - 1);
   width_ = cells_for(config_.least_width_m, map.cell_size_m());
   std::set<ChunkIndex> due;
   grow_old(now, due);
@@ -117,7 +118,7 @@ void FrontierMap::look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIn
   if (!is_clear(lost)) forgotten_[index] = both(forgotten_[index], lost);
   now.unknown = without(now.unknown, forgotten(index));
   add(chunks_near_difference(index, now.free, before.free, width_ - 1), due);
-  add(chunks_near_difference(index, now.unknown, before.unknown, depth_ + kRim), due);
+  add(chunks_near_difference(index, now.unknown, before.unknown, depth_ + within_), due);
   if (chunk) {
     known_[index] = now;
   } else {
@@ -137,7 +138,7 @@ void FrontierMap::grow_old(Time now, std::set<ChunkIndex>& due) {
     const CellTile back = without(cells, forgotten(index));
     const CellTile before = at->second.unknown;
     at->second.unknown = both(before, common(cells_in_state(*chunk, CellState::kUnknown), back));
-    add(chunks_near_difference(index, at->second.unknown, before, depth_ + kRim), due);
+    add(chunks_near_difference(index, at->second.unknown, before, depth_ + within_), due);
   }
 }
 
@@ -177,7 +178,7 @@ void FrontierMap::redo(ChunkIndex index) {
   ChunkWindow rim = unknown;
   keep_deep(rim, width_);
   keep_deep(unknown, depth_);
-  grow(unknown, rim, kRim);
+  grow(unknown, rim, within_);
   keep_deep(free, width_);
   const CellTile cells = common(middle_of(free), beside(unknown));
   if (!is_clear(cells)) cells_[index] = cells;
@@ -186,7 +187,15 @@ void FrontierMap::redo(ChunkIndex index) {
 std::vector<Frontier> FrontierMap::frontiers(bool last_look) const {
   ExplorationConfig config = config_;
   if (last_look) config.least_length_m = std::min(config.least_length_m, config.last_look_length_m);
-  return find_frontiers(cells(), last_.cell_size_m(), config);
+  ExplorationConfig with_rests = config;
+  with_rests.least_length_m *= kRest;
+  with_rests.least_extent_m *= kRest;
+  std::vector<Frontier> found = find_frontiers(cells(), last_.cell_size_m(), with_rests);
+  for (Frontier& f : found) {
+    const double length_m = static_cast<double>(f.cells) * last_.cell_size_m();
+    f.is_rest = length_m < config.least_length_m - 1e-9 || f.extent_m < config.least_extent_m - 1e-9;
+  }
+  return found;
 }
 
 bool FrontierMap::is_frontier(CellIndex c) const {

@@ -17,8 +17,9 @@ namespace dynslam {
 
 /// Keeps up with a map which of its cells are frontier cells: free cells beside (left, right, above, below)
 /// the unknown (thesis 6.6). The unknown counts where a square of `least_depth_m` fits into it: what is
-/// missed along walls and between beams is no frontier, nor is anything that the robot would not fit into.
-/// Its ragged edge counts with it: two cells around, as far as a square of `least_width_m` fits. What was
+/// missed along walls and between beams is no frontier, nor is anything that is no room. Its ragged edge, and
+/// what is seen of a room through a door that is ajar, counts with it: `deep_within_m` around, as far as a
+/// square of `least_width_m` fits. What was
 /// occupied a moment ago and is unknown now counts as occupied for a while: where people walked along a wall
 /// the map forgets both. The free counts where a square of `least_width_m` fits into it: a lone ray that went
 /// through a wall is no way. Chunks that do not exist are unknown.
@@ -37,7 +38,8 @@ class FrontierMap {
   bool is_frontier(CellIndex c) const;
   /// All frontier cells, row by row.
   std::vector<CellIndex> cells() const;
-  /// Where they make up something worth going to; `last_look`: or hardly.
+  /// Where they make up something worth going to; `last_look`: or hardly. And what is left of such when half
+  /// of it is seen.
   std::vector<Frontier> frontiers(bool last_look = false) const;
 
  private:
@@ -57,10 +59,10 @@ class FrontierMap {
   ChunkWindow around(ChunkIndex index, CellTile Known::*cells) const;
 
   ExplorationConfig config_;
-  int depth_ = 1, width_ = 1;           ///< least_depth_m and least_width_m in cells
-  GridSnapshot last_;                   ///< held, so that a chunk's address says which it is
-  std::map<ChunkIndex, Known> known_;   ///< what is not in here is unknown
-  Tiles forgotten_, forgotten_before_;  ///< what was occupied lately, and before that
+  int depth_ = 1, within_ = 0, width_ = 1;  ///< least_depth_m, deep_within_m and least_width_m in cells
+  GridSnapshot last_;                       ///< held, so that a chunk's address says which it is
+  std::map<ChunkIndex, Known> known_;       ///< what is not in here is unknown
+  Tiles forgotten_, forgotten_before_;      ///< what was occupied lately, and before that
   std::optional<Time> forgotten_since_;
   std::map<ChunkIndex, CellTile, RowByRow> cells_;  ///< no tile is clear
 };

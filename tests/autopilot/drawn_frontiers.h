@@ -29,11 +29,14 @@ inline GridSnapshot map_of(const std::vector<std::string>& rows, double cell_siz
   return grid.snapshot();
 }
 
+/// Without what is only the rest of one.
 inline std::vector<Frontier> frontiers_of(const std::vector<std::string>& rows,
                                           double cell_size_m = kLetter_m) {
   FrontierMap frontiers;
   frontiers.update({}, map_of(rows, cell_size_m));
-  return frontiers.frontiers();
+  std::vector<Frontier> found = frontiers.frontiers();
+  std::erase_if(found, [](const Frontier& f) { return f.is_rest; });
+  return found;
 }
 
 }  // namespace dynslam

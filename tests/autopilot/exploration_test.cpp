@@ -298,6 +298,32 @@ TEST(Exploration, AFrontierCountsWhenItWasThereForAWhile) {
   }
 }
 
+TEST(Exploration, GoesOnToTheRestOfWhatItSetOutFor) {
+  Explorer e(kTwoDoors);
+  const auto places = e.places();
+  ASSERT_EQ(places.size(), 2U);
+  for (Frontier& f : e.flat.frontiers) f.is_rest = true;
+  const auto later = e.places();
+  ASSERT_EQ(later.size(), 1U);
+  EXPECT_EQ(later[0].point_map, places[0].point_map);
+}
+
+TEST(Exploration, WaitsAtTheLastLookOnlyForWhatMayBeADoor) {
+  for (const double extent_m : {0.4, 1.0}) {
+    Explorer e(kTwoDoors);
+    const auto look = [&](bool once) {
+      return e.exploration.places(e.now, e.flat.robot, e.flat.frontiers, e.visits, e.flat.map, e.flat.reach(),
+                                  once);
+    };
+    for (Frontier& f : e.flat.frontiers) f.extent_m = extent_m;
+    for (const Place& place : look(false)) e.exploration.failed(e.now, place);
+    look(false);
+    EXPECT_TRUE(e.exploration.left_out().next);
+    look(true);
+    EXPECT_EQ(e.exploration.left_out().next.has_value(), extent_m > kDoor_m);
+  }
+}
+
 TEST(Exploration, WhatCameBackComesAfterWhatIsNew) {
   Explorer e(kTwoDoors);
   for (Frontier& f : e.flat.frontiers) f.extent_m = 1.5;

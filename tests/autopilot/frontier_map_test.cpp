@@ -20,6 +20,7 @@ constexpr double kCell_m = 0.05;
 ExplorationConfig with_depth(int cells, int free_cells = 1) {
   ExplorationConfig config;
   config.least_depth_m = cells * kCell_m;
+  config.deep_within_m = 2 * kCell_m;
   config.least_width_m = free_cells * kCell_m;
   return config;
 }

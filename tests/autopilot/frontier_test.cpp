@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <random>
 #include <set>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -99,6 +101,29 @@ TEST(Frontiers, AreNotPocketsIntoWhichOneSeesThroughGaps) {
                   .empty());
 }
 
+TEST(Frontiers, AreWhereARoomIsSeenThroughADoorThatIsAjar) {
+  const auto frontiers_before = [](const std::string& behind) {
+    return frontiers_of({"################",  //
+                         "#..............#",  //
+                         "#..............#",  //
+                         "#..............#",  //
+                         "#####....#######",  //
+                         "    #....#      ",  //
+                         behind,              //
+                         behind,              //
+                         behind,              //
+                         behind,              //
+                         behind,              //
+                         behind},
+                        0.02);
+  };
+  const auto room = frontiers_before("                ");
+  ASSERT_EQ(room.size(), 1U);
+  EXPECT_NEAR(room[0].middle_map.x(), 0.7, 0.05);
+  EXPECT_EQ(room[0].cells, 20U);
+  EXPECT_TRUE(frontiers_before("    #    #      ").empty()) << "a niche is no room";
+}
+
 TEST(Frontiers, AreNotSmallSpotsInTheOpen) {
   for (const double cell_size_m : {0.02, 0.05, 0.1}) {
     EXPECT_TRUE(frontiers_of({"################",  //
@@ -122,6 +147,22 @@ TEST(Frontiers, AreNotAlongWallsThatAreMissedByACellOrTwo) {
                             "#              #",  //
                             "########  ######"})
                   .empty());
+}
+
+TEST(Frontiers, ThatAreTooShortAreWhatMayBeLeftOfOne) {
+  for (const auto& [open, is_found, is_rest] :
+       {std::tuple{"####......######", true, false}, std::tuple{"####...#########", true, true},
+        std::tuple{"####.###########", false, false}}) {
+    FrontierMap map;
+    map.update({}, map_of({"                ", "                ", "                ", "                ",
+                           "                ", "                ", "                ", open,
+                           "#..............#", "#..............#", "################"},
+                          0.05));
+    const auto found = map.frontiers();
+    ASSERT_EQ(found.size(), is_found ? 1U : 0U) << open;
+    for (const Frontier& f : found) EXPECT_EQ(f.is_rest, is_rest) << open;
+    for (const Frontier& f : map.frontiers(true)) EXPECT_FALSE(f.is_rest) << open;
+  }
 }
 
 TEST(Frontiers, AreNotAlongARayThatWentThroughAWall) {
