@@ -11,6 +11,8 @@ constexpr Duration kRemembers = std::chrono::minutes(10);
 constexpr std::size_t kMost = 64;
 constexpr double kRadius_m = 0.08;
 constexpr int kCorners = 8;
+/// A pallet is a metre wide.
+constexpr double kOneThing_m = 1.0;
 /// Towards a corner of the robot.
 constexpr double kAside_rad = 0.7;
 
@@ -21,6 +23,12 @@ std::vector<Vector2> outline_around(const Vector2& middle) {
     outline.emplace_back(middle + kRadius_m * Vector2(std::cos(angle), std::sin(angle)));
   }
   return outline;
+}
+
+/// What joins two such outlines.
+std::vector<Vector2> outline_between(const Vector2& a, const Vector2& b) {
+  const Vector2 along = (b - a).normalized(), aside = kRadius_m * Vector2(-along.y(), along.x());
+  return {a - aside, b - aside, b + aside, a + aside};
 }
 
 }  // namespace
@@ -67,8 +75,17 @@ std::size_t FeltObstacles::count_since(Time since) const {
 
 std::vector<std::vector<Vector2>> FeltObstacles::outlines_map() const {
   std::vector<std::vector<Vector2>> outlines;
-  for (const Felt& f : felt_)
-    if (f.counts()) outlines.push_back(outline_around(f.guesses_map[f.guess]));
+  std::vector<Vector2> places_map;
+  for (const Felt& f : felt_) {
+    if (!f.counts()) continue;
+    const Vector2& place = f.guesses_map[f.guess];
+    outlines.push_back(outline_around(place));
+    for (const Vector2& other : places_map) {
+      const double apart_m = (other - place).norm();
+      if (apart_m > 0 && apart_m <= kOneThing_m) outlines.push_back(outline_between(other, place));
+    }
+    places_map.push_back(place);
+  }
   return outlines;
 }
 

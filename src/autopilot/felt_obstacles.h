@@ -12,7 +12,8 @@ namespace dynslam {
 
 /// What the robot ran into and its lidar does not see: kept out of for a while, as are areas that people
 /// drew. Where along its front it touched is a guess: in the middle; if that shuts the way, on the left, then
-/// on the right. In the map's frame as it was then. One thread.
+/// on the right. What it ran into at places near to each other is one thing, and shuts the way between them
+/// too. In the map's frame as it was then. One thread.
 class FeltObstacles {
  public:
   /// It touched something, driving like this.
@@ -27,7 +28,8 @@ class FeltObstacles {
 
   /// Touches since `since`.
   std::size_t count_since(Time since) const;
-  /// Outlines in the map; a turn on the spot leaves none, for nobody knows on which side it touched.
+  /// Outlines in the map, all convex; a turn on the spot leaves none, for nobody knows on which side it
+  /// touched.
   std::vector<std::vector<Vector2>> outlines_map() const;
 
  private:

@@ -49,6 +49,20 @@ TEST(FeltObstacles, TheLastOneIsDoubtedFirst) {
   EXPECT_NEAR(only_one(felt).x(), kRadius_m, 0.05);
 }
 
+TEST(FeltObstacles, NearToEachOtherAreOneThing) {
+  for (const double apart_m : {0.6, 1.2}) {
+    FeltObstacles felt;
+    felt.touched(kNow, {0.0, 0.0, 0.0}, {0.3, 0.0}, kRadius_m);
+    felt.touched(kNow, {0.0, apart_m, 0.0}, {0.3, 0.0}, kRadius_m);
+    const auto outlines = felt.outlines_map();
+    ASSERT_EQ(outlines.size(), apart_m < 1.0 ? 3U : 2U);
+    if (outlines.size() < 3) continue;
+    EXPECT_EQ(outlines.back().size(), 4U);
+    EXPECT_NEAR(middle_of(outlines.back()).y(), 0.5 * apart_m, 1e-9);
+    EXPECT_NEAR(middle_of(outlines.back()).x(), kRadius_m, 0.05);
+  }
+}
+
 TEST(FeltObstacles, OfATurnCountsButLeavesNothing) {
   FeltObstacles felt;
   felt.touched(kNow, {}, {0.0, 1.0}, kRadius_m);
