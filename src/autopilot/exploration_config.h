@@ -7,11 +7,11 @@ namespace dynslam {
 
 /// Section [exploration] of the configuration: what counts as a frontier, and which one is gone to.
 struct ExplorationConfig {
-  double least_depth_m = 0.6;
+  double least_depth_m = 0.4;
   double deep_within_m = 0.2;
   double least_width_m = 0.1;
   double least_length_m = 0.4;
-  double last_look_length_m = 0.2;
+  double last_look_length_m = 0.3;
   double least_extent_m = 0.3;
   double most_extent_m = 3.0;
   double merge_within_m = 0.2;
