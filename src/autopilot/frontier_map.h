@@ -19,10 +19,10 @@ namespace dynslam {
 /// the unknown (thesis 6.6). The unknown counts where a square of `least_depth_m` fits into it: what is
 /// missed along walls and between beams is no frontier, nor is anything that is no room. Its ragged edge, and
 /// what is seen of a room through a door that is ajar, counts with it: `deep_within_m` around, as far as a
-/// square of `least_width_m` fits. What was
-/// occupied a moment ago and is unknown now counts as occupied for a while: where people walked along a wall
-/// the map forgets both. The free counts where a square of `least_width_m` fits into it: a lone ray that went
-/// through a wall is no way. Chunks that do not exist are unknown.
+/// square of `least_width_m` fits. What was occupied a moment ago and is unknown now counts as occupied for a
+/// while: where people walked along a wall the map forgets both. The free counts where a square of
+/// `least_width_m` fits into it: a lone ray that went through a wall is no way. Chunks that do not exist are
+/// unknown.
 ///
 /// Memory: 1.1 KB a chunk, and the snapshot that was seen last. One thread.
 class FrontierMap {
