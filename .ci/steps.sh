@@ -169,26 +169,23 @@ step_tsan() {
   DYNSLAM=$PWD/build/tsan/src/dynslam setarch --addr-no-randomize node tests/web/server/soak.mjs 120 256
 }
 
+# With clang as well, which counts what the tests reach.
 step_coverage() {
-  need_to_build gcovr
-  build coverage
-  find build/coverage -name '*.gcda' -delete
-  run_tests build/coverage
-  local lines=build/coverage/lines.json folder failed=0
-  quietly gcovr --root . --object-directory build/coverage --filter src/ --json "$lines"
+  need_to_build clang llvm jq
+  build clang
+  local counts=build/clang/counts folder lines failed=0
+  rm -rf $counts
+  LLVM_PROFILE_FILE=$PWD/$counts/%m.profraw run_tests build/clang
+  llvm-profdata-14 merge -sparse $counts/*.profraw -o $counts/all
+  find build/clang/src build/clang/tests -type f -executable -printf '-object\n%p\n' |
+    xargs llvm-cov-14 export -summary-only -instr-profile $counts/all >"$logs/lines.json" 2>"$logs/llvm-cov"
   for folder in base grid pipe plan io slam drive autopilot sim robot server; do
-    # Never --output to a device: gcovr, run by root, puts a file in its place.
-    gcovr --root . --add-tracefile "$lines" --filter "src/$folder/" --fail-under-line 90 \
-      --print-summary --output "$logs/gcovr.txt" >"$logs/gcovr" || failed=1
-    printf 'src/%-9s %s\n' $folder "$(grep ^lines "$logs/gcovr")"
+    lines=$(jq --arg in "$PWD/src/$folder/" '[.data[0].files[] | select(.filename | startswith($in)) | .summary.lines] |
+      100 * (map(.covered) | add) / (map(.count) | add)' "$logs/lines.json")
+    printf 'src/%-9s %.1f %% of the lines\n' $folder "$lines"
+    [[ ${lines%.*} -ge 90 ]] || failed=1
   done
   return $failed
-}
-
-step_clang() {
-  need_to_build clang
-  build clang
-  run_tests build/clang
 }
 
 # What was found to be in order is not looked at again until it, something it includes, or the rules change.
@@ -233,10 +230,12 @@ fuzz() {
   echo "$name: $(grep '^Done' "$logs/fuzz_$name")"
 }
 
-# Runs and tests a clean clone of the last commit in a new Debian. But for what was compiled there before, in ccache,
-# nothing is taken along.
+# Runs and tests a clean clone of the last commit in a new Debian. Nothing is taken along but what was compiled before
+# in that release, as ccache has it: the same compiler, headers and code.
 fresh_debian() {
   local job began cache=$PWD/build/ccache-$1
+  need ccache
+  [[ $1 != "$(. /etc/os-release && echo "$VERSION_CODENAME")" ]] || cache=$(ccache --get-config cache_dir)
   root=/var/tmp/dynslam-$1-$$
   [[ $(id -u) == 0 ]] || skip "making a Debian root and entering it takes root"
   need mmdebstrap git
@@ -256,7 +255,8 @@ fresh_debian() {
         mount -t devpts -o newinstance,ptmxmode=0666 devpts "$2/dev/pts" && mount --bind "$2/dev/pts/ptmx" "$2/dev/ptmx" &&
         shift && exec chroot "$@"' enter \
       "$cache" "$root" /usr/bin/env -i NODE_EXTRA_CA_CERTS=/root/as-outside.crt HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin \
-      CCACHE_DIR=/root/ccache CMAKE_BUILD_PARALLEL_LEVEL="$CMAKE_BUILD_PARALLEL_LEVEL" \
+      CCACHE_DIR=/root/ccache CCACHE_BASEDIR=/root/dynslam CCACHE_NOHASHDIR=1 CCACHE_IGNOREOPTIONS="$CCACHE_IGNOREOPTIONS" \
+      CMAKE_BUILD_PARALLEL_LEVEL="$CMAKE_BUILD_PARALLEL_LEVEL" \
       bash -c "/root/dynslam/toolchain/host.sh $job"
     echo "host.sh $job took $((SECONDS - began)) s"
   done

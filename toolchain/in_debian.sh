@@ -43,4 +43,4 @@ exec $as_root unshare --mount sh -c '
   tree=$2
   shift 2
   exec chroot "$tree" "$@"' sh "$root" "$tree" env "CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}" \
-  "CCACHE_DIR=$root/build/ccache-$release" "$@"
+  "CCACHE_DIR=$root/build/ccache-$release" "CCACHE_BASEDIR=$root" CCACHE_NOHASHDIR=1 "$@"

@@ -78,7 +78,7 @@ there() {
 say "building for arm64, Debian $debian${cpu:+, Cortex-$cpu}"
 # npm is there where it is needed: in a tree of another release, the page's packages are already.
 quietly there cmake -S "$root" -B "$build" -G Ninja --toolchain "$root/toolchain/arm64.cmake" \
-  "-DDYNSLAM_SYSROOT=$sysroot" "-DDYNSLAM_CPU=$cpu" "-DDYNSLAM_DEBIAN=$debian" -DCMAKE_BUILD_TYPE=Release \
+  "-DDYNSLAM_SYSROOT=$sysroot" "-DDYNSLAM_CPU=$cpu" "-DDYNSLAM_DEBIAN=$debian" -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
   -DDYNSLAM_WERROR=ON -DDYNSLAM_WEB=ON -DNPM=npm "-DDYNSLAM_TESTS=$([ "$job" = package ] && echo OFF || echo ON)"
 quietly there cmake --build "$build"
 case $job in

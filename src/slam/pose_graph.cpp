@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include <Eigen/Cholesky>
+
 namespace dynslam {
 
 bool PoseGraph::add_node(std::uint32_t id, const Pose2& map_T_node) {

@@ -192,7 +192,7 @@ class DrawnDrive {
   DrawnWorld mirrors;  ///< beams that meet these go on, reflected
   Way world_T_robot;
   std::function<double(Time)> nose_down_rad = [](Time) { return 0.0; };
-  LidarModel lidar{.beams = 500, .turn_s = 0.08, .noise_m = 0.01};
+  DrawnLidar lidar{.beams = 500, .turn_s = 0.08, .noise_m = 0.01};
   double reach_m = std::numeric_limits<double>::infinity();  ///< of the lidar: nothing comes back from beyond
   LidarMount mount;
   Weather<Scan> scan_weather = fair<Scan>;

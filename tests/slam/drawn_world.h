@@ -54,7 +54,7 @@ inline DrawnWorld two_rooms() {
   return world;
 }
 
-struct LidarModel {
+struct DrawnLidar {
   int beams = 400;
   double turn_s = 0.08;  ///< 0: all beams at once
   double noise_m = 0.0;
@@ -63,7 +63,7 @@ struct LidarModel {
 /// What the lidar sees while the robot moves as `world_T_robot` says: each beam from where the robot is at
 /// its time.
 inline Scan look(const DrawnWorld& world, Time stamp, const std::function<Pose2(Time)>& world_T_robot,
-                 const LidarModel& lidar, std::mt19937& random, const LidarMount& mount = {}) {
+                 const DrawnLidar& lidar, std::mt19937& random, const LidarMount& mount = {}) {
   std::normal_distribution<double> noise(0.0, 1.0);
   Scan scan;
   scan.stamp = stamp;

@@ -60,7 +60,7 @@ class Drive {
   }
 
   DrawnWorld world = two_rooms();
-  LidarModel lidar{.beams = 400, .turn_s = 0.08, .noise_m = 0.01};
+  DrawnLidar lidar{.beams = 400, .turn_s = 0.08, .noise_m = 0.01};
   std::mt19937 random{5};
   double imu_drift_radps = 0.0;
   Slam slam;
