@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "print.h"
+
 namespace dynslam {
 namespace {
 
@@ -20,13 +22,6 @@ constexpr std::array<std::pair<Work, const char*>, kWorks> kRows = {
      {Work::kControlling, "safety and motors, a tick"},
      {Work::kServing, "a client, a message"},
      {Work::kPicturing, "a picture as JPEG"}}};
-
-template <class... Values>
-std::string print(const char* form, Values... values) {
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), form, values...);
-  return text.data();
-}
 
 /// Without what would end it early, or the line.
 std::string quoted(std::string text) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "goal_rules.h"
+
 namespace dynslam {
 namespace {
 
@@ -13,9 +15,6 @@ constexpr double kMoved_m = 0.05;     ///< less may be the pose's noise
 constexpr double kStays_m = 0.1;      ///< who fidgets within this waits too
 /// Whether there is a way is looked at so often, while it stays.
 constexpr Duration kCheckEvery = std::chrono::seconds(2);
-constexpr double kFloorStep_m = 0.1;
-/// A goal that is too tight may be given up for one so near to it.
-constexpr double kNearby_m = 0.35;
 
 bool has_way_to(const Vector2& goal_map, Simulator& simulator) {
   const Vector2 goal = simulator.world().world_T_start * goal_map;

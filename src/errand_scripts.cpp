@@ -4,16 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "goal_rules.h"
+
 namespace dynslam {
 namespace {
 
-constexpr double kFloorStep_m = 0.1;
 constexpr double kReached_m = 0.05;
 constexpr double kReached_rad = 5.0 * kTwoPi / 360.0;
 /// A place with less floor around it may be too tight to stand at with some room to spare.
 constexpr double kRoomy_m = 0.2;
-/// A goal that is too tight may be given up for one so near to it.
-constexpr double kNearby_m = 0.35;
 /// The pose of a robot that stands is known after a scan or two.
 constexpr Duration kSettle = std::chrono::milliseconds(600);
 constexpr std::chrono::minutes kMostForOne{4};

@@ -16,6 +16,7 @@
 #include "drivers/pi/pi_watch.h"
 #include "drivers/rplidar/rplidar.h"
 #include "pipe/clock.h"
+#include "print.h"
 #include "scan_text.h"
 #ifdef DYNSLAM_HAS_BNO055
 #include "drivers/bno055/bno055.h"
@@ -55,13 +56,6 @@ void catch_signals() {
   action.sa_handler = [](int signal) { stop_signal = signal; };
   action.sa_flags = 0;  // not SA_RESTART: a question that waits for its answer ends too
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-}
-
-template <class... Values>
-std::string print(const char* form, Values... values) {
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), form, values...);
-  return text.data();
 }
 
 /// Writes what each device says, and counts those that do not answer.

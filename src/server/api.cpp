@@ -21,10 +21,6 @@ using nlohmann::json;
 
 constexpr const char* kNoAutopilot = "this robot has no autopilot; drive it by hand";
 
-std::string text_of(const json& message) {
-  return message.dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
 HttpAnswer with_type(std::string type, std::string body) {
   HttpAnswer answer;
   answer.type = std::move(type);

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/state_json.h"
+
 namespace dynslam {
 namespace {
 
@@ -14,9 +16,6 @@ constexpr std::uint16_t kNotUnderstood = 1003, kTooMuch = 1008;
 constexpr std::chrono::milliseconds kLookEvery{100};
 constexpr std::size_t kMostUnderWay = 32;
 
-std::string text_of(const json& message) {
-  return message.dump(-1, ' ', false, json::error_handler_t::replace);
-}
 double tenths(Duration d) { return std::round(1e4 * to_seconds(d)) / 10.0; }
 
 }  // namespace

@@ -257,4 +257,8 @@ json devices_json(const Ports& ports) {
   return {{"devices", all}, {"counters", counters_json(ports.counters())}};
 }
 
+std::string text_of(const json& message) {
+  return message.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
 }  // namespace dynslam

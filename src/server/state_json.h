@@ -42,4 +42,7 @@ nlohmann::json recording_json(const Ports& ports);
 /// How each device does, and what the robot's stages count.
 nlohmann::json devices_json(const Ports& ports);
 
+/// As sent; what is not UTF-8 in it is replaced.
+std::string text_of(const nlohmann::json& message);
+
 }  // namespace dynslam
