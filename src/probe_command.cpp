@@ -2,10 +2,8 @@
 #include "probe_command.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <functional>
 #include <istream>
 #include <optional>
