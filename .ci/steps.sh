@@ -169,7 +169,7 @@ step_tsan() {
   DYNSLAM=$PWD/build/tsan/src/dynslam setarch --addr-no-randomize node tests/web/server/soak.mjs 120 256
 }
 
-# With clang as well, which counts what the tests reach.
+# With clang as well, which counts what the tests reach; and each file by itself, to find what it does not include.
 step_coverage() {
   need_to_build clang llvm jq
   build clang
@@ -180,7 +180,8 @@ step_coverage() {
   find build/clang/src build/clang/tests -type f -executable -printf '-object\n%p\n' |
     xargs llvm-cov-14 export -summary-only -instr-profile $counts/all >"$logs/lines.json" 2>"$logs/llvm-cov"
   for folder in base grid pipe plan io slam drive autopilot sim robot server; do
-    lines=$(jq --arg in "$PWD/src/$folder/" '[.data[0].files[] | select(.filename | startswith($in)) | .summary.lines] |
+    # With ccache their paths are those from the build's folder.
+    lines=$(jq --arg in "/src/$folder/" '[.data[0].files[] | select(.filename | contains($in)) | .summary.lines] |
       100 * (map(.covered) | add) / (map(.count) | add)' "$logs/lines.json")
     printf 'src/%-9s %.1f %% of the lines\n' $folder "$lines"
     [[ ${lines%.*} -ge 90 ]] || failed=1
@@ -188,16 +189,18 @@ step_coverage() {
   return $failed
 }
 
-# What was found to be in order is not looked at again until it, something it includes, or the rules change.
+# What was found to be in order is not looked at again until it, something it includes, or the rules change. Many files at
+# once, as most of the time goes into what they include.
 step_tidy() {
   need_to_build clang clang-tidy-14 jq || skip "clang-tidy 14 is to be had on Debian 12"
-  quietly cmake --preset clang
+  quietly cmake --preset clang -B build/tidy -DCMAKE_UNITY_BUILD=ON
   tidied=${XDG_CACHE_HOME:-$HOME/.cache}/dynslam-tidy
   mkdir -p "$tidied"
   find "$tidied" -type f -mtime +60 -delete
   export tidied
   export -f tidy
-  jq -r --arg src "$PWD/src/" '.[] | select(.file | startswith($src)) | .file, .directory, .command' build/clang/compile_commands.json |
+  jq -r --arg alone "$PWD/src/" --arg together "$PWD/build/tidy/src/" \
+    '.[] | select(.file | startswith($alone) or startswith($together)) | .file, .directory, .command' build/tidy/compile_commands.json |
     tr '\n' '\0' | xargs -0 -n 3 -P "$CMAKE_BUILD_PARALLEL_LEVEL" bash -c 'tidy "$@"' tidy
 }
 
@@ -206,7 +209,7 @@ tidy() {
   local text mark top=$PWD
   text=$(cd "$2" && eval "$(sed -E 's/ -o [^ ]+//; s/ -c / -E /' <<<"$3")" | sed "s,$top/,,g") || return 1
   mark=$tidied/$({ clang-tidy-14 --version && cat .clang-tidy && echo "$text"; } | sha256sum | cut -d' ' -f1)
-  [[ -e $mark ]] || { clang-tidy-14 --quiet -p build/clang "$1" 2>/dev/null && touch "$mark"; }
+  [[ -e $mark ]] || { clang-tidy-14 --quiet -p build/tidy "$1" 2>/dev/null && touch "$mark"; }
 }
 
 step_fuzz() {

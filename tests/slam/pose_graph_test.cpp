@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <ceres/autodiff_cost_function.h>
 #include <gtest/gtest.h>
