@@ -194,14 +194,13 @@ step_coverage() {
 step_tidy() {
   need_to_build clang clang-tidy-14 jq || skip "clang-tidy 14 is to be had on Debian 12"
   quietly cmake --preset clang -B build/tidy -DCMAKE_UNITY_BUILD=ON
-  quietly cmake --build build/tidy --target src/sim/builtin_worlds.cpp src/server/embedded_files.cpp
   tidied=${XDG_CACHE_HOME:-$HOME/.cache}/dynslam-tidy
   mkdir -p "$tidied"
   find "$tidied" -type f -mtime +60 -delete
   export tidied
   export -f tidy
-  jq -r --arg alone "$PWD/src/" --arg together "$PWD/build/tidy/src/" \
-    '.[] | select(.file | startswith($alone) or startswith($together)) | .file, .directory, .command' build/tidy/compile_commands.json |
+  jq -r --arg top "$PWD" '.[] | select(.file | test("^" + $top + "/(src|build/tidy/src/.*/Unity)/")) |
+    .file, .directory, .command' build/tidy/compile_commands.json |
     tr '\n' '\0' | xargs -0 -n 3 -P "$CMAKE_BUILD_PARALLEL_LEVEL" bash -c 'tidy "$@"' tidy
 }
 
