@@ -10,11 +10,12 @@ skipped=77
 recording=tests/data/mit-csail.clf.gz
 CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
 CTEST_PARALLEL_LEVEL=$CMAKE_BUILD_PARALLEL_LEVEL
-# What was compiled in one checkout serves in another.
+# What was compiled in one checkout serves in another, whatever language the compiler speaks there.
 CCACHE_BASEDIR=$PWD
+CCACHE_SLOPPINESS=locale
 CCACHE_NOHASHDIR=1
 CCACHE_IGNOREOPTIONS='-ffile-prefix-map=*'
-export CMAKE_BUILD_PARALLEL_LEVEL CTEST_PARALLEL_LEVEL CCACHE_BASEDIR CCACHE_NOHASHDIR CCACHE_IGNOREOPTIONS
+export CMAKE_BUILD_PARALLEL_LEVEL CTEST_PARALLEL_LEVEL CCACHE_BASEDIR CCACHE_SLOPPINESS CCACHE_NOHASHDIR CCACHE_IGNOREOPTIONS
 
 need() { toolchain/install.sh "$@"; }
 
@@ -259,7 +260,7 @@ fresh_debian() {
         shift && exec chroot "$@"' enter \
       "$cache" "$root" /usr/bin/env -i NODE_EXTRA_CA_CERTS=/root/as-outside.crt HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin \
       CCACHE_DIR=/root/ccache CCACHE_BASEDIR=/root/dynslam CCACHE_NOHASHDIR=1 CCACHE_IGNOREOPTIONS="$CCACHE_IGNOREOPTIONS" \
-      CMAKE_BUILD_PARALLEL_LEVEL="$CMAKE_BUILD_PARALLEL_LEVEL" \
+      CCACHE_SLOPPINESS="$CCACHE_SLOPPINESS" CMAKE_BUILD_PARALLEL_LEVEL="$CMAKE_BUILD_PARALLEL_LEVEL" \
       bash -c "/root/dynslam/toolchain/host.sh $job"
     echo "host.sh $job took $((SECONDS - began)) s"
   done
