@@ -194,7 +194,7 @@ step_coverage() {
 # once, as most of the time goes into what they include.
 step_tidy() {
   need_to_build clang clang-tidy-14 jq || skip "clang-tidy 14 is to be had on Debian 12"
-  quietly cmake --preset clang -B build/tidy -DCMAKE_UNITY_BUILD=ON
+  quietly cmake --preset clang -B build/tidy -DCMAKE_UNITY_BUILD=ON -DDYNSLAM_BENCH=ON
   tidied=${XDG_CACHE_HOME:-$HOME/.cache}/dynslam-tidy
   mkdir -p "$tidied"
   find "$tidied" -type f -mtime +60 -delete
