@@ -14,6 +14,8 @@ namespace {
 constexpr double kSamePlace_m = 0.6;
 /// So long a frontier must be gone to have been seen.
 constexpr Duration kGone = std::chrono::milliseconds(600);
+/// There is a way again to an aim that had one, or somebody stays in it.
+constexpr Duration kHold = std::chrono::seconds(4);
 constexpr Duration kSure = std::chrono::seconds(5);
 /// Who stands in the only way out has gone on by then.
 constexpr Duration kWayFree = std::chrono::seconds(20);
@@ -77,6 +79,7 @@ bool Explorer::choose(Time now, const Vector2& robot_map, const Costmap& costmap
     return false;
   chosen_at_ = now;
   find_places(now, robot_map, costmap, planner);
+  if (holds_aim(now)) return false;
   if (!has_frontier()) wait_well(robot_map);
   if (places_.empty()) {
     aim_.reset();
@@ -85,7 +88,21 @@ bool Explorer::choose(Time now, const Vector2& robot_map, const Costmap& costmap
   const Place& best = places_.front();
   if (aim_ && (aim_->stand_map - best.stand_map).norm() < kSamePlace_m) return false;
   aim_ = best;
+  aim_had_way_at_ = now;
   return true;
+}
+
+/// Whoever walks through a door hides all that lies behind it for a moment: to turn round for that, and round
+/// again, takes longer than to wait.
+bool Explorer::holds_aim(Time now) {
+  if (!aim_ || aim_->kind != PlaceKind::kFrontier) return false;
+  const auto is_aim = [&](const Place& p) {
+    return p.kind == PlaceKind::kFrontier && (aim_->is_shut_off || !p.is_shut_off) &&
+           (p.point_map - aim_->point_map).norm() < kSamePlace_m + 0.5 * p.gain;
+  };
+  const bool has_way = std::any_of(places_.begin(), places_.end(), is_aim);
+  if (has_way || !aim_had_way_at_ || now < *aim_had_way_at_) aim_had_way_at_ = now;
+  return !has_way && now - *aim_had_way_at_ < kHold;
 }
 
 /// What a frontier hid is often seen long before the robot is there.

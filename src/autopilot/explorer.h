@@ -46,6 +46,7 @@ class Explorer {
  private:
   bool goes_on() const { return config_.when_explored == "revisit"; }
   bool is_seen(const Place& place) const;
+  bool holds_aim(Time now);
   void find_places(Time now, const Vector2& robot_map, const Costmap& costmap, PathPlanner& planner);
   void remember_reachable();
   void wait_well(const Vector2& robot_map);
@@ -58,6 +59,7 @@ class Explorer {
   VisitMap visits_;
   GridSnapshot map_;
   std::optional<Place> aim_;
+  std::optional<Time> aim_had_way_at_;  ///< as far as is known
   std::optional<Time> aim_seen_since_;  ///< what was to be seen there is no frontier any more
   std::vector<Place> places_;
   std::optional<Time> chosen_at_;

@@ -500,6 +500,45 @@ TEST(Autopilot, ExploresOnAtOnceWhenTheDoorOpensThatItHopedFor) {
             CellState::kFree);
 }
 
+const std::vector<std::string> kBetweenTwoRooms = {
+    "##################################",  //
+    "#..........#..........#..........#",  //
+    "#..........#..........#..........#",  //
+    "#..........#..........d..........#",  //
+    "#..........e..........d..........#",  //
+    "#..........e..........d..........#",  //
+    "#..........e....s.....#..........#",  //
+    "#..........#..........#..........#",  //
+    "#..........#..........#..........#",  //
+    "##################################",  //
+};
+
+/// Explores, is on its way into one of the two rooms, and then somebody stands in its door for so many turns.
+struct WhileSomebodyIsInTheDoor : Pilot {
+  explicit WhileSomebodyIsInTheDoor(int turns) : Pilot(kBetweenTwoRooms) {
+    looks = true;
+    turn(Explore{});
+    goal_map = goal_after(6);
+    const char door = goal_map.x() > at.x ? 'd' : 'e';
+    building.wall_up(door);
+    turned_m = (goal_after(turns) - goal_map).norm();
+  }
+  Vector2 goal_after(int turns) {
+    for (int i = 1; i < turns; ++i) turn();
+    return turn().goal.value().point_map;
+  }
+  Vector2 goal_map;
+  double turned_m;
+};
+
+TEST(Autopilot, KeepsToItsAimWhileSomebodyWalksThroughTheDoor) {
+  EXPECT_LT(WhileSomebodyIsInTheDoor(10).turned_m, 0.6);
+}
+
+TEST(Autopilot, ExploresElsewhereWhenSomebodyStaysInTheDoor) {
+  EXPECT_GT(WhileSomebodyIsInTheDoor(30).turned_m, 3.0);
+}
+
 TEST(Autopilot, GoesHomeWhenAllIsExplored) {
   AutopilotSetup setup;
   setup.autopilot.when_explored = "home";
