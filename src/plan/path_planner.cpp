@@ -12,8 +12,8 @@
 namespace dynslam {
 namespace {
 
-/// Room of so few coarse cells is not somewhere to be: a third of a square metre.
-constexpr int kPocket = 50;
+/// Room of so few coarse cells is not somewhere to be: a square metre, as behind a door that stands open.
+constexpr int kPocket = 150;
 
 Plan no_route(std::string reason) {
   Plan plan;

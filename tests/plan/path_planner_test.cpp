@@ -205,6 +205,20 @@ TEST(PathPlanner, FindsItsWayOutOfATightPlaceButThroughNoWall) {
   EXPECT_GE(least_clearance_m(map, plan.route_map, first_free), kPruned_m);
 }
 
+/// It came in when the door stood a little wider open.
+TEST(PathPlanner, FindsItsWayOutOfANookThroughAGapThatIsATrifleTooNarrow) {
+  DrawnFloor floor;
+  floor.clear(0, 0, 4, 4);
+  floor.occupy(0.5, 0.5, 1.9, 1.9);
+  floor.clear(0.6, 0.6, 1.8, 1.8);
+  floor.clear(1.8, 1.0, 1.9, 1.0 + 2 * kPruned_m);
+  const Vector2 nook(1.2, 1.2), outside(3, 3);
+  EXPECT_EQ(plan_on(floor.costmap(), outside, nook).outcome, PlanOutcome::kNoRoute);
+  const Plan plan = plan_on(floor.costmap(), nook, outside);
+  ASSERT_EQ(plan.outcome, PlanOutcome::kFound) << plan.reason;
+  EXPECT_TRUE(PathPlanner({}, kRadius_m).reach(floor.costmap(), nook).length_m(outside));
+}
+
 /// Four legs with 36 cm between them: room to stand in their middle, but too little between two of them.
 TEST(PathPlanner, FindsItsWayOutBetweenTheLegsOfAChair) {
   DrawnFloor floor;
