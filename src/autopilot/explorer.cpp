@@ -14,7 +14,7 @@ namespace {
 constexpr double kSamePlace_m = 0.6;
 /// So long a frontier must be gone to have been seen.
 constexpr Duration kGone = std::chrono::milliseconds(600);
-/// There is a way again to an aim that had one, or somebody stays in it.
+/// An aim that had a way has one again by then, or whoever is in it stays.
 constexpr Duration kHold = std::chrono::seconds(4);
 constexpr Duration kSure = std::chrono::seconds(5);
 /// Who stands in the only way out has gone on by then.
@@ -101,8 +101,8 @@ bool Explorer::holds_aim(Time now) {
            (p.point_map - aim_->point_map).norm() < kSamePlace_m + 0.5 * p.gain;
   };
   const bool has_way = std::any_of(places_.begin(), places_.end(), is_aim);
-  if (has_way || !aim_had_way_at_ || now < *aim_had_way_at_) aim_had_way_at_ = now;
-  return !has_way && now - *aim_had_way_at_ < kHold;
+  if (has_way || now < aim_had_way_at_) aim_had_way_at_ = now;
+  return !has_way && now - aim_had_way_at_ < kHold;
 }
 
 /// What a frontier hid is often seen long before the robot is there.

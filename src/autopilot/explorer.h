@@ -59,7 +59,7 @@ class Explorer {
   VisitMap visits_;
   GridSnapshot map_;
   std::optional<Place> aim_;
-  std::optional<Time> aim_had_way_at_;  ///< as far as is known
+  Time aim_had_way_at_;                 ///< last, when there is an aim
   std::optional<Time> aim_seen_since_;  ///< what was to be seen there is no frontier any more
   std::vector<Place> places_;
   std::optional<Time> chosen_at_;
