@@ -63,6 +63,11 @@ void grow(ChunkWindow& cells, const ChunkWindow& within, int steps) {
   }
 }
 
+void add_without(ChunkWindow& cells, const ChunkWindow& some, const ChunkWindow& but) {
+  for (std::size_t r = 0; r < cells.size(); ++r)
+    for (std::size_t w = 0; w < cells[r].size(); ++w) cells[r][w] |= some[r][w] & ~but[r][w];
+}
+
 CellTile middle_of(const ChunkWindow& cells) {
   CellTile found;
   for (std::size_t r = 0; r < kChunkSide; ++r) found[r] = cells[kChunkSide + r][1];

@@ -24,6 +24,9 @@ void keep_deep(ChunkWindow& cells, int side);
 /// many cells along the edge.
 void grow(ChunkWindow& cells, const ChunkWindow& within, int steps);
 
+/// Adds the cells of `some` that are not in `but`.
+void add_without(ChunkWindow& cells, const ChunkWindow& some, const ChunkWindow& but);
+
 /// What of the middle chunk is in the set.
 CellTile middle_of(const ChunkWindow& cells);
 /// The cells of the middle chunk beside which (left, right, above, below) a cell is in the set.

@@ -118,7 +118,7 @@ void FrontierMap::look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIn
   if (!is_clear(lost)) forgotten_[index] = both(forgotten_[index], lost);
   now.unknown = without(now.unknown, forgotten(index));
   add(chunks_near_difference(index, now.free, before.free, width_ - 1), due);
-  add(chunks_near_difference(index, now.unknown, before.unknown, depth_ + within_), due);
+  add(chunks_near_difference(index, now.unknown, before.unknown, unknown_reach()), due);
   if (chunk) {
     known_[index] = now;
   } else {
@@ -138,7 +138,7 @@ void FrontierMap::grow_old(Time now, std::set<ChunkIndex>& due) {
     const CellTile back = without(cells, forgotten(index));
     const CellTile before = at->second.unknown;
     at->second.unknown = both(before, common(cells_in_state(*chunk, CellState::kUnknown), back));
-    add(chunks_near_difference(index, at->second.unknown, before, depth_ + within_), due);
+    add(chunks_near_difference(index, at->second.unknown, before, unknown_reach()), due);
   }
 }
 
@@ -177,10 +177,11 @@ void FrontierMap::redo(ChunkIndex index) {
   ChunkWindow free = around(index, &Known::free);
   ChunkWindow rim = unknown;
   keep_deep(rim, width_);
+  add_without(free, unknown, rim);
   keep_deep(unknown, depth_);
   grow(unknown, rim, within_);
   keep_deep(free, width_);
-  const CellTile cells = common(middle_of(free), beside(unknown));
+  const CellTile cells = common(common(all_free, middle_of(free)), beside(unknown));
   if (!is_clear(cells)) cells_[index] = cells;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -21,8 +22,8 @@ namespace dynslam {
 /// what is seen of a room through a door that is ajar, counts with it: `deep_within_m` around, as far as a
 /// square of `least_width_m` fits. What was occupied a moment ago and is unknown now counts as occupied for a
 /// while: where people walked along a wall the map forgets both. The free counts where a square of
-/// `least_width_m` fits into it: a lone ray that went through a wall is no way. Chunks that do not exist are
-/// unknown.
+/// `least_width_m` fits into it and the gaps between its rays, which are too narrow for such a square: a lone
+/// ray that went through a wall is no way. Chunks that do not exist are unknown.
 ///
 /// Memory: 1.1 KB a chunk, and the snapshot that was seen last. One thread.
 class FrontierMap {
@@ -55,6 +56,8 @@ class FrontierMap {
   CellTile forgotten(ChunkIndex index) const;
   void look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIndex>& due);
   void redo(ChunkIndex index);
+  /// How far what is unknown matters, in cells: as far as it is deep, or as a gap in what is free.
+  int unknown_reach() const { return std::max(depth_ + within_, 2 * (width_ - 1)); }
   const Known& known(ChunkIndex index) const;
   ChunkWindow around(ChunkIndex index, CellTile Known::*cells) const;
 

@@ -2,6 +2,7 @@
 #include "autopilot/frontier_map.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <random>
 #include <set>
@@ -64,21 +65,23 @@ void fill_at_random(Canvas& canvas, std::mt19937& random) {
                           : CellState::kOccupied);
 }
 
-bool is_all(const GridSnapshot& map, CellState state, CellIndex low, int side) {
+using CellTest = std::function<bool(CellIndex)>;
+
+bool is_all(const CellTest& test, CellIndex low, int side) {
   for (int i = 0; i < side * side; ++i) {
-    if (map.state({low.x + i % side, low.y + i / side}) != state) return false;
+    if (!test({low.x + i % side, low.y + i / side})) return false;
   }
   return true;
 }
 
-/// The cells of squares that are all in one state.
-std::set<CellIndex> squares(const GridSnapshot& map, CellState state, int side) {
+/// The cells of squares all of whose cells pass the test.
+std::set<CellIndex> squares(const GridSnapshot& map, const CellTest& test, int side) {
   const CellIndex low = first_cell(map.box().min);
   const CellIndex high = first_cell({map.box().max.x + 1, map.box().max.y + 1});
   std::set<CellIndex> cells;
-  for (int y = low.y - side; y <= high.y; ++y) {
-    for (int x = low.x - side; x <= high.x; ++x) {
-      if (!is_all(map, state, {x, y}, side)) continue;
+  for (int y = low.y - 2 * side; y <= high.y + side; ++y) {
+    for (int x = low.x - 2 * side; x <= high.x + side; ++x) {
+      if (!is_all(test, {x, y}, side)) continue;
       for (int i = 0; i < side * side; ++i) cells.insert({x + i % side, y + i / side});
     }
   }
@@ -98,10 +101,16 @@ std::set<CellIndex> grown(const std::set<CellIndex>& cells, const std::set<CellI
 
 /// Cell by cell, row by row, as the definition says.
 std::vector<CellIndex> frontier_cells_one_by_one(const GridSnapshot& map, int depth, int width) {
-  const std::set<CellIndex> ragged = squares(map, CellState::kUnknown, width);
-  const std::set<CellIndex> unknown = grown(grown(squares(map, CellState::kUnknown, depth), ragged), ragged);
+  const auto is_unknown = [&](CellIndex c) { return map.state(c) == CellState::kUnknown; };
+  const auto is_free = [&](CellIndex c) { return map.state(c) == CellState::kFree; };
+  const std::set<CellIndex> ragged = squares(map, is_unknown, width);
+  const std::set<CellIndex> unknown = grown(grown(squares(map, is_unknown, depth), ragged), ragged);
+  const auto is_free_or_gap = [&](CellIndex c) {
+    return is_free(c) || (is_unknown(c) && !ragged.contains(c));
+  };
   std::vector<CellIndex> cells;
-  for (const CellIndex c : squares(map, CellState::kFree, width)) {
+  for (const CellIndex c : squares(map, is_free_or_gap, width)) {
+    if (!is_free(c)) continue;
     if (unknown.contains({c.x - 1, c.y}) || unknown.contains({c.x + 1, c.y}) ||
         unknown.contains({c.x, c.y - 1}) || unknown.contains({c.x, c.y + 1}))
       cells.push_back(c);
@@ -150,6 +159,18 @@ TEST(FrontierMap, TheEdgeOfTheUnknownMayBeRagged) {
   canvas.fill({0, 42}, 40, 1, CellState::kOccupied);
   update_for_good(frontiers, canvas.grid.snapshot());
   EXPECT_FALSE(frontiers.is_frontier({20, 39})) << "it lies before a wall";
+}
+
+TEST(FrontierMap, GapsBetweenRaysDoNotHideWhatLiesBeyond) {
+  Canvas canvas;
+  canvas.fill({0, 0}, 40, 40, CellState::kFree);
+  canvas.fill({0, 41}, 40, 1, CellState::kFree);  // the last ray, beside a row that none went along
+  FrontierMap frontiers(with_depth(5, 3));
+  update_for_good(frontiers, canvas.grid.snapshot());
+  EXPECT_TRUE(frontiers.is_frontier({20, 41}));
+  canvas.fill({0, 38}, 40, 2, CellState::kOccupied);
+  update_for_good(frontiers, canvas.grid.snapshot());
+  EXPECT_FALSE(frontiers.is_frontier({20, 41})) << "a lone ray beyond a wall";
 }
 
 TEST(FrontierMap, KeepsUpWithAChangingMap) {
