@@ -72,7 +72,9 @@ int run(int argc, char** argv) {
                   "times as fast as life; 0: step by step, as fast as it goes, the same every time")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
-  sim->add_option("--seed", sim_options.seed, "of the noise of everything")->capture_default_str();
+  sim->add_option("--seed", sim_options.seed, "of the noise of everything")
+      ->check(CLI::Range(0, 1000000000))
+      ->capture_default_str();
   sim->add_option("--out", sim_options.out, "folder for map, trajectory, truth and report")->type_name("DIR");
   sim->add_flag("--headless", sim_options.headless, "serve nobody; goes on a tour");
   sim->add_option("--duration", sim_options.duration_s, "most of simulated time, in seconds")
@@ -112,7 +114,9 @@ int run(int argc, char** argv) {
   bench->add_option("--world", bench_options.world, "where the simulated robot drives, as for sim")
       ->type_name("NAME|FILE")
       ->capture_default_str();
-  bench->add_option("--seed", bench_options.seed, "of the noise of everything")->capture_default_str();
+  bench->add_option("--seed", bench_options.seed, "of the noise of everything")
+      ->check(CLI::Range(0, 1000000000))
+      ->capture_default_str();
   bench->add_option("--duration", bench_options.duration_s, "of simulated time, in seconds")
       ->type_name("S")
       ->check(CLI::Range(0.1, 1e5))

@@ -96,7 +96,8 @@ TEST_F(CommandLine, SaysItsVersionAndHelp) {
 }
 
 TEST_F(CommandLine, RefusesWrongUsage) {
-  for (const char* wrong : {"", "fly", "replay", "replay a b", "replay a --no-such-option"})
+  for (const char* wrong : {"", "fly", "replay", "replay a b", "replay a --no-such-option", "sim --seed -1",
+                            "sim --seed 1e30", "sim --seed ''", "bench --seed -1"})
     expect_one_line(dynslam(wrong), 2, "dynslam: ");
 }
 
