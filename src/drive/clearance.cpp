@@ -25,9 +25,11 @@ void Clearance::see(const Scan& scan, const RecentMotion& motion) {
                   knows ? std::optional(motion.between(*end_, end)) : std::nullopt};
   points_ = obstacle_points(scan, body_, config_.min_range_m, motion);
   glass_.see(points_, look);
+  walkers_.see(points_, look);
   near_.add_to(points_, look, body_);
   continue_walls(points_, look, body_, config_.blind_m);
   glass_.add_to(points_, body_);
+  walkers_.add_to(points_, body_);
   end_ = end;
 }
 

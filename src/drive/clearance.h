@@ -11,6 +11,7 @@
 #include "drive/near_memory.h"
 #include "drive/obstacle_points.h"
 #include "drive/sweep.h"
+#include "drive/walker_watch.h"
 
 namespace dynslam {
 
@@ -60,11 +61,15 @@ struct ClearWay {
 /// returns. The scan is old by the time it is used: the robot may have moved as commanded since then, or not
 /// at all yet, and has to stop in time in both cases. It sees the lidar's plane only, and no further than
 /// where the lidar looked; what is too near for the lidar it remembers, and of glass what it met squarely.
-/// What moves towards the robot is taken to stand still.
+/// What moves towards the robot is taken to stand still, but who walked lately has room for a step.
 class Clearance {
  public:
   explicit Clearance(const BodyConfig& body = {}, const ClearanceConfig& config = {})
-      : body_(body), config_(config), near_(config.blind_m), glass_(config.blind_m) {}
+      : body_(body),
+        config_(config),
+        near_(config.blind_m),
+        glass_(config.blind_m),
+        walkers_(config.blind_m) {}
 
   /// The newest scan to go by.
   void see(const Scan& scan, const RecentMotion& motion);
@@ -72,6 +77,7 @@ class Clearance {
     end_.reset();
     near_.forget();
     glass_.forget();
+    walkers_.forget();
   }
   /// Of glass, from the robot at the end of the newest scan: beams that are not square to it go through.
   std::vector<Segment> panes() const { return glass_.panes(); }
@@ -107,6 +113,7 @@ class Clearance {
   ClearanceConfig config_;
   NearMemory near_;
   GlassWatch glass_;
+  WalkerWatch walkers_;
   std::vector<ObstaclePoint> points_;  ///< from the robot at the scan's end
   std::optional<Time> end_;            ///< of the scan
 };
