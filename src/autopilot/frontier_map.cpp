@@ -16,6 +16,11 @@ constexpr CellTile kClear{};
 /// Of a frontier that the robot is on its way to so much is left until it counts as seen: the rest of its
 /// cells come and go while it drives.
 constexpr double kRest = 0.5;
+/// From what was forgotten so many cells: what sees through a wall aslant reaches into it a little.
+constexpr int kBesideForgotten = 2;
+
+/// As many cells a gap between rays has at the most, whatever is asked for.
+constexpr int kWidestGap = 4;
 
 constexpr CellTile full_tile() {
   CellTile tile{};
@@ -93,6 +98,7 @@ std::size_t FrontierMap::update(Time now, const GridSnapshot& map) {
   depth_ = cells_for(config_.least_depth_m, map.cell_size_m());
   within_ = std::min(static_cast<int>(config_.deep_within_m / map.cell_size_m() + 0.5), kBeside - 1);
   width_ = cells_for(config_.least_width_m, map.cell_size_m());
+  gap_ = std::min((width_ - 1) / 2, kWidestGap);
   std::set<ChunkIndex> due;
   grow_old(now, due);
   const ChunkBox box = box_of_both(map.box(), last_.box());
@@ -114,10 +120,11 @@ void FrontierMap::look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIn
             : Known{kClear, kFull};
   const Known& before = known(index);
   const CellTile not_occupied = both(before.free, before.unknown);
-  const CellTile lost = without(now.unknown, both(not_occupied, forgotten(index)));
+  const CellTile lost = without(both(now.unknown, now.free), both(not_occupied, forgotten(index)));
   if (!is_clear(lost)) forgotten_[index] = both(forgotten_[index], lost);
+  add(chunks_near_difference(index, common(lost, now.free), kClear, kBesideForgotten), due);
   now.unknown = without(now.unknown, forgotten(index));
-  add(chunks_near_difference(index, now.free, before.free, width_ - 1), due);
+  add(chunks_near_difference(index, now.free, before.free, width_ - 1 + over_gap()), due);
   add(chunks_near_difference(index, now.unknown, before.unknown, unknown_reach()), due);
   if (chunk) {
     known_[index] = now;
@@ -139,6 +146,7 @@ void FrontierMap::grow_old(Time now, std::set<ChunkIndex>& due) {
     const CellTile before = at->second.unknown;
     at->second.unknown = both(before, common(cells_in_state(*chunk, CellState::kUnknown), back));
     add(chunks_near_difference(index, at->second.unknown, before, unknown_reach()), due);
+    add(chunks_near_difference(index, back, kClear, kBesideForgotten), due);
   }
 }
 
@@ -155,11 +163,11 @@ const FrontierMap::Known& FrontierMap::known(ChunkIndex index) const {
   return at == known_.end() ? kNothing : at->second;
 }
 
-ChunkWindow FrontierMap::around(ChunkIndex index, CellTile Known::*cells) const {
+ChunkWindow FrontierMap::around(ChunkIndex index, const std::function<CellTile(ChunkIndex)>& tile_of) {
   ChunkWindow window;
   for (int dy = 0; dy < 3; ++dy) {
     for (int dx = 0; dx < 3; ++dx) {
-      const CellTile& tile = known({index.x + dx - 1, index.y + dy - 1}).*cells;
+      const CellTile tile = tile_of({index.x + dx - 1, index.y + dy - 1});
       for (int r = 0; r < kChunkSide; ++r)
         window[static_cast<std::size_t>(dy * kChunkSide + r)][static_cast<std::size_t>(dx)] =
             tile[static_cast<std::size_t>(r)];
@@ -168,21 +176,35 @@ ChunkWindow FrontierMap::around(ChunkIndex index, CellTile Known::*cells) const 
   return window;
 }
 
+/// Where a square fits in, and beside that over gaps.
+ChunkWindow FrontierMap::wide_free(ChunkIndex index, const ChunkWindow& unknown) const {
+  ChunkWindow wide = around(index, [this](ChunkIndex c) { return known(c).free; });
+  ChunkWindow with_gaps = wide, no_gap = unknown;
+  keep_deep(no_gap, gap_ + 1);
+  add_without(with_gaps, unknown, no_gap);
+  keep_deep(with_gaps, width_);
+  keep_deep(wide, width_);
+  grow(wide, with_gaps, over_gap());
+  return wide;
+}
+
 void FrontierMap::redo(ChunkIndex index) {
   cells_.erase(index);
   const CellTile& all_free = known(index).free;
   if (is_clear(all_free)) return;
-  ChunkWindow unknown = around(index, &Known::unknown);
+  ChunkWindow unknown = around(index, [this](ChunkIndex c) { return known(c).unknown; });
   if (is_clear(common(all_free, beside(unknown)))) return;
-  ChunkWindow free = around(index, &Known::free);
+  const ChunkWindow free = wide_free(index, unknown);
   ChunkWindow rim = unknown;
   keep_deep(rim, width_);
-  add_without(free, unknown, rim);
   keep_deep(unknown, depth_);
   grow(unknown, rim, within_);
-  keep_deep(free, width_);
   const CellTile cells = common(common(all_free, middle_of(free)), beside(unknown));
-  if (!is_clear(cells)) cells_[index] = cells;
+  if (is_clear(cells)) return;
+  ChunkWindow was_wall = around(index, [this](ChunkIndex c) { return forgotten(c); });
+  grow(was_wall, around(index, [](ChunkIndex) { return kFull; }), kBesideForgotten);
+  const CellTile left = without(cells, middle_of(was_wall));
+  if (!is_clear(left)) cells_[index] = left;
 }
 
 std::vector<Frontier> FrontierMap::frontiers(bool last_look) const {

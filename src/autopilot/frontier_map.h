@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -21,9 +22,11 @@ namespace dynslam {
 /// missed along walls and between beams is no frontier, nor is anything that is no room. Its ragged edge, and
 /// what is seen of a room through a door that is ajar, counts with it: `deep_within_m` around, as far as a
 /// square of `least_width_m` fits. What was occupied a moment ago and is unknown now counts as occupied for a
-/// while: where people walked along a wall the map forgets both. The free counts where a square of
-/// `least_width_m` fits into it and the gaps between its rays, which are too narrow for such a square: a lone
-/// ray that went through a wall is no way. Chunks that do not exist are unknown.
+/// while: where people walked along a wall the map forgets both. Nor is it a frontier where what was occupied
+/// is free now, as walls are here and there that are seen aslant from far away. The free counts where a
+/// square of `least_width_m` fits into it: a lone ray that went through a wall is no way. It counts too just
+/// beyond a gap less than half as wide, as there is between the last rays. Chunks that do not exist are
+/// unknown.
 ///
 /// Memory: 1.1 KB a chunk, and the snapshot that was seen last. One thread.
 class FrontierMap {
@@ -56,16 +59,20 @@ class FrontierMap {
   CellTile forgotten(ChunkIndex index) const;
   void look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIndex>& due);
   void redo(ChunkIndex index);
-  /// How far what is unknown matters, in cells: as far as it is deep, or as a gap in what is free.
-  int unknown_reach() const { return std::max(depth_ + within_, 2 * (width_ - 1)); }
+  ChunkWindow wide_free(ChunkIndex index, const ChunkWindow& unknown) const;
+  /// What is free counts so far beyond where it is wide, when there is but a gap between.
+  int over_gap() const { return gap_ == 0 ? 0 : 2 * gap_ + 1; }
+  /// How far what is unknown matters: as far as it is deep, or as a gap in what is free.
+  int unknown_reach() const { return std::max(depth_ + within_, gap_ + width_ - 1 + over_gap()); }
   const Known& known(ChunkIndex index) const;
-  ChunkWindow around(ChunkIndex index, CellTile Known::*cells) const;
+  static ChunkWindow around(ChunkIndex index, const std::function<CellTile(ChunkIndex)>& tile_of);
 
   ExplorationConfig config_;
-  int depth_ = 1, within_ = 0, width_ = 1;  ///< least_depth_m, deep_within_m and least_width_m in cells
-  GridSnapshot last_;                       ///< held, so that a chunk's address says which it is
-  std::map<ChunkIndex, Known> known_;       ///< what is not in here is unknown
-  Tiles forgotten_, forgotten_before_;      ///< what was occupied lately, and before that
+  // In cells: least_depth_m, deep_within_m, least_width_m, and the gap that is less than half of it.
+  int depth_ = 1, within_ = 0, width_ = 1, gap_ = 0;
+  GridSnapshot last_;                   ///< held, so that a chunk's address says which it is
+  std::map<ChunkIndex, Known> known_;   ///< what is not in here is unknown
+  Tiles forgotten_, forgotten_before_;  ///< what was occupied lately, and before that
   std::optional<Time> forgotten_since_;
   std::map<ChunkIndex, CellTile, RowByRow> cells_;  ///< no tile is clear
 };
