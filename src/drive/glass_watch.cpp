@@ -91,7 +91,7 @@ void GlassWatch::see(std::span<const ObstaclePoint> points, const Look& look) {
   std::erase_if(tracks_, [&](Track& t) {
     for (Vector2* p : {&t.all.from, &t.all.to, &t.patch.from, &t.patch.to, &t.first, &t.lidar_first})
       *p = now_T_before * *p;
-    const bool hidden = off_line_m(t.patch, lidar_) < blind_m_ + kHiddenWithin_m;
+    const bool hidden = off_line_m(t.patch, lidar_) < blind_m_ + kHiddenWithin_m && stays_glass(t);
     return look.end - t.seen > (hidden ? kForgetsHidden : kForgets);
   });
   for (const Points& thing : things_of(points, look.robot_T_lidar.inverse()))
@@ -131,9 +131,7 @@ bool GlassWatch::wanders_as_glass(const Track& t) const {
 }
 
 /// Somebody who walks beside the robot does not do so for long.
-bool GlassWatch::is_sure(const Track& t) const {
-  return t.pane_since && t.seen - *t.pane_since > kSureAfter && t.seen == end_;
-}
+bool GlassWatch::stays_glass(const Track& t) { return t.pane_since && t.seen - *t.pane_since > kSureAfter; }
 
 void GlassWatch::add_to(std::vector<ObstaclePoint>& points, const BodyConfig& body) const {
   for (const Track& t : tracks_) {
@@ -155,7 +153,7 @@ void GlassWatch::add_to(std::vector<ObstaclePoint>& points, const BodyConfig& bo
 std::vector<Segment> GlassWatch::panes() const {
   std::vector<Segment> panes;
   for (const Track& t : tracks_)
-    if (is_sure(t)) panes.push_back(t.all);
+    if (stays_glass(t) && t.seen == end_) panes.push_back(t.all);
   return panes;
 }
 

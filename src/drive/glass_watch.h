@@ -39,7 +39,7 @@ class GlassWatch {
   };
   void follow(const Segment& patch, Time now);
   bool wanders_as_glass(const Track& track) const;
-  bool is_sure(const Track& track) const;
+  static bool stays_glass(const Track& track);
 
   double blind_m_;
   Time end_;                         ///< of the last scan
