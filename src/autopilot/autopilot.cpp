@@ -116,25 +116,31 @@ void Autopilot::trust() {
   if ((felt || glass) && costmap_) keep_out();
 }
 
-/// Backs off from what it touched, for a moment, and remembers where that was. Whatever else hinders it ends
-/// this, and so does a touch that does not end, or comes too often.
+/// From what it touched. Whatever else hinders it ends this, and so does a touch that does not end.
 bool Autopilot::free_itself(Time now, const AutopilotInputs& in, const std::optional<Hindrance>& hindrance) {
   const bool touches = hindrance && hindrance->remedy == Remedy::kBackOff;
   if (hindrance && !touches) backs_off_until_.reset();
   if (backs_off_until_ && now < *backs_off_until_) return true;
   const bool tried = std::exchange(backs_off_until_, std::nullopt).has_value();
   if (!touches) return false;
-  const auto lately = felt_.count_since(std::max(now - kTouchesCountFor, ordered_at_));
-  if (tried || !in.condition.pose || !costmap_ || lately >= static_cast<std::size_t>(config_.most_touches)) {
+  if (tried) {
     end(AutopilotPhase::kStopped, hindrance->reason);
-    return true;
+  } else {
+    back_off(now, in, hindrance->reason);
   }
+  return true;
+}
+
+/// For a moment, and remembers where that was; when that comes too often, a person has to look.
+void Autopilot::back_off(Time now, const AutopilotInputs& in, const std::string& from) {
+  const auto lately = felt_.count_since(std::max(now - kTouchesCountFor, ordered_at_));
+  if (!in.condition.pose || !costmap_ || lately >= static_cast<std::size_t>(config_.most_touches))
+    return end(AutopilotPhase::kStopped, from);
   felt_.touched(now, in.condition.pose->map_T_robot, in.came, robot_radius_m_);
   keep_out();
   navigator_.plan_anew();
   backs_off_until_ = now + kBacksOff;
-  status_.reason = "it touched something, and backs off";
-  return true;
+  status_.reason = from + ", and backs off";
 }
 
 /// It stands, and waits for better times, but not for ever. Returns whether it drives all the same: home.
@@ -173,9 +179,14 @@ void Autopilot::drive(Time now, const AutopilotInputs& in) {
   const Navigator::Report report = navigator_.turn(now, map_T_robot, *costmap_, in.follow);
   status_.reason = report.reason;
   if (report.state == Navigator::State::kArrived) return arrived(now, report.reason);
-  if (report.state == Navigator::State::kStuck)
-    return end(AutopilotPhase::kStopped, "the wheels turn and the robot stays");
+  if (report.state == Navigator::State::kStuck) return stuck(now, in);
   if (report.state == Navigator::State::kNoRoute) failed(now, report);
+}
+
+/// In what neither lidar nor bumper tells of.
+void Autopilot::stuck(Time now, const AutopilotInputs& in) {
+  back_off(now, in, "the wheels turn and the robot stays");
+  if (explores() && explorer_.aim()) explorer_.failed(now);
 }
 
 /// Chooses what to drive to; false when there is nothing for now.

@@ -69,6 +69,8 @@ class Autopilot {
   void drive(Time now, const AutopilotInputs& in);
   bool bear(Time now, const AutopilotInputs& in, const Hindrance& hindrance);
   bool free_itself(Time now, const AutopilotInputs& in, const std::optional<Hindrance>& hindrance);
+  void back_off(Time now, const AutopilotInputs& in, const std::string& from);
+  void stuck(Time now, const AutopilotInputs& in);
   void keep_out();
   void trust();
   bool set_out(Time now, const Vector2& robot_map);

@@ -354,6 +354,23 @@ TEST(Autopilot, ToTouchTooOftenEndsIt) {
   EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kStopped);
 }
 
+TEST(Autopilot, BacksOffFromWhatHoldsItThoughNoBumperTellsOfThat) {
+  KnownFlat pilot;
+  pilot.came = {0.3, 0.0};
+  pilot.turn(GoThere{{pilot.building.find('g')}});
+  for (int i = 0; i < 3; ++i) {
+    pilot.follow.state = Following::kStuck;
+    const AutopilotStatus status = pilot.turn();
+    EXPECT_EQ(status.phase, AutopilotPhase::kActive) << i;
+    EXPECT_EQ(status.reason, "the wheels turn and the robot stays, and backs off");
+    EXPECT_TRUE(pilot.autopilot.backs_off());
+    while (pilot.autopilot.backs_off()) pilot.turn();
+    ASSERT_TRUE(pilot.autopilot.task()) << "it tries another way";
+  }
+  pilot.follow.state = Following::kStuck;
+  EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kStopped) << "a person has to look";
+}
+
 TEST(Autopilot, AStopEndsBackingOff) {
   Touching pilot;
   pilot.turn();

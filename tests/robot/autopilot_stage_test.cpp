@@ -95,10 +95,12 @@ TEST(AutopilotStage, AnotherOrderAfterThatIsObeyed) {
 TEST(AutopilotStage, NoticesWheelsThatSlipWithinThreeSeconds) {
   SelfDriving r(true);
   ASSERT_TRUE(r.sets_out({{2.0, 0.0}}));
-  const double noticed_s = r.step_until([&] { return r.status().phase == AutopilotPhase::kStopped; }, 20.0);
-  EXPECT_EQ(r.status().phase, AutopilotPhase::kStopped);
-  EXPECT_EQ(r.status().reason, "the wheels turn and the robot stays");
+  const double noticed_s = r.step_until(
+      [&] { return r.status().reason.starts_with("the wheels turn and the robot stays"); }, 20.0);
   EXPECT_LT(noticed_s, 3.0);
+  r.step_until([&] { return r.status().phase == AutopilotPhase::kStopped; }, 30.0);
+  EXPECT_EQ(r.status().phase, AutopilotPhase::kStopped) << "backing off does not help for ever";
+  EXPECT_EQ(r.status().reason, "the wheels turn and the robot stays");
 }
 
 TEST(AutopilotStage, AStopInMidDriveStandsAndClearingItDoesNotSetItOff) {
