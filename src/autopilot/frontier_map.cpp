@@ -16,9 +16,6 @@ constexpr CellTile kClear{};
 /// Of a frontier that the robot is on its way to so much is left until it counts as seen: the rest of its
 /// cells come and go while it drives.
 constexpr double kRest = 0.5;
-/// From what was forgotten so many cells: what sees through a wall aslant reaches into it a little.
-constexpr int kBesideForgotten = 2;
-
 /// As many cells a gap between rays has at the most, whatever is asked for.
 constexpr int kWidestGap = 4;
 
@@ -120,9 +117,8 @@ void FrontierMap::look_at(ChunkIndex index, const Chunk* chunk, std::set<ChunkIn
             : Known{kClear, kFull};
   const Known& before = known(index);
   const CellTile not_occupied = both(before.free, before.unknown);
-  const CellTile lost = without(both(now.unknown, now.free), both(not_occupied, forgotten(index)));
+  const CellTile lost = without(now.unknown, both(not_occupied, forgotten(index)));
   if (!is_clear(lost)) forgotten_[index] = both(forgotten_[index], lost);
-  add(chunks_near_difference(index, common(lost, now.free), kClear, kBesideForgotten), due);
   now.unknown = without(now.unknown, forgotten(index));
   add(chunks_near_difference(index, now.free, before.free, width_ - 1 + over_gap()), due);
   add(chunks_near_difference(index, now.unknown, before.unknown, unknown_reach()), due);
@@ -146,7 +142,6 @@ void FrontierMap::grow_old(Time now, std::set<ChunkIndex>& due) {
     const CellTile before = at->second.unknown;
     at->second.unknown = both(before, common(cells_in_state(*chunk, CellState::kUnknown), back));
     add(chunks_near_difference(index, at->second.unknown, before, unknown_reach()), due);
-    add(chunks_near_difference(index, back, kClear, kBesideForgotten), due);
   }
 }
 
@@ -163,11 +158,11 @@ const FrontierMap::Known& FrontierMap::known(ChunkIndex index) const {
   return at == known_.end() ? kNothing : at->second;
 }
 
-ChunkWindow FrontierMap::around(ChunkIndex index, const std::function<CellTile(ChunkIndex)>& tile_of) {
+ChunkWindow FrontierMap::around(ChunkIndex index, CellTile Known::*cells) const {
   ChunkWindow window;
   for (int dy = 0; dy < 3; ++dy) {
     for (int dx = 0; dx < 3; ++dx) {
-      const CellTile tile = tile_of({index.x + dx - 1, index.y + dy - 1});
+      const CellTile& tile = known({index.x + dx - 1, index.y + dy - 1}).*cells;
       for (int r = 0; r < kChunkSide; ++r)
         window[static_cast<std::size_t>(dy * kChunkSide + r)][static_cast<std::size_t>(dx)] =
             tile[static_cast<std::size_t>(r)];
@@ -178,7 +173,7 @@ ChunkWindow FrontierMap::around(ChunkIndex index, const std::function<CellTile(C
 
 /// Where a square fits in, and beside that over gaps.
 ChunkWindow FrontierMap::wide_free(ChunkIndex index, const ChunkWindow& unknown) const {
-  ChunkWindow wide = around(index, [this](ChunkIndex c) { return known(c).free; });
+  ChunkWindow wide = around(index, &Known::free);
   ChunkWindow with_gaps = wide, no_gap = unknown;
   keep_deep(no_gap, gap_ + 1);
   add_without(with_gaps, unknown, no_gap);
@@ -192,7 +187,7 @@ void FrontierMap::redo(ChunkIndex index) {
   cells_.erase(index);
   const CellTile& all_free = known(index).free;
   if (is_clear(all_free)) return;
-  ChunkWindow unknown = around(index, [this](ChunkIndex c) { return known(c).unknown; });
+  ChunkWindow unknown = around(index, &Known::unknown);
   if (is_clear(common(all_free, beside(unknown)))) return;
   const ChunkWindow free = wide_free(index, unknown);
   ChunkWindow rim = unknown;
@@ -200,11 +195,7 @@ void FrontierMap::redo(ChunkIndex index) {
   keep_deep(unknown, depth_);
   grow(unknown, rim, within_);
   const CellTile cells = common(common(all_free, middle_of(free)), beside(unknown));
-  if (is_clear(cells)) return;
-  ChunkWindow was_wall = around(index, [this](ChunkIndex c) { return forgotten(c); });
-  grow(was_wall, around(index, [](ChunkIndex) { return kFull; }), kBesideForgotten);
-  const CellTile left = without(cells, middle_of(was_wall));
-  if (!is_clear(left)) cells_[index] = left;
+  if (!is_clear(cells)) cells_[index] = cells;
 }
 
 std::vector<Frontier> FrontierMap::frontiers(bool last_look) const {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -22,11 +21,9 @@ namespace dynslam {
 /// missed along walls and between beams is no frontier, nor is anything that is no room. Its ragged edge, and
 /// what is seen of a room through a door that is ajar, counts with it: `deep_within_m` around, as far as a
 /// square of `least_width_m` fits. What was occupied a moment ago and is unknown now counts as occupied for a
-/// while: where people walked along a wall the map forgets both. Nor is it a frontier where what was occupied
-/// is free now, as walls are here and there that are seen aslant from far away. The free counts where a
-/// square of `least_width_m` fits into it: a lone ray that went through a wall is no way. It counts too just
-/// beyond a gap less than half as wide, as there is between the last rays. Chunks that do not exist are
-/// unknown.
+/// while: where people walked along a wall the map forgets both. The free counts where a square of
+/// `least_width_m` fits into it: a lone ray that went through a wall is no way. It counts too just beyond a
+/// gap less than half as wide, as there is between the last rays. Chunks that do not exist are unknown.
 ///
 /// Memory: 1.1 KB a chunk, and the snapshot that was seen last. One thread.
 class FrontierMap {
@@ -65,7 +62,7 @@ class FrontierMap {
   /// How far what is unknown matters: as far as it is deep, or as a gap in what is free.
   int unknown_reach() const { return std::max(depth_ + within_, gap_ + width_ - 1 + over_gap()); }
   const Known& known(ChunkIndex index) const;
-  static ChunkWindow around(ChunkIndex index, const std::function<CellTile(ChunkIndex)>& tile_of);
+  ChunkWindow around(ChunkIndex index, CellTile Known::*cells) const;
 
   ExplorationConfig config_;
   // In cells: least_depth_m, deep_within_m, least_width_m, and the gap that is less than half of it.

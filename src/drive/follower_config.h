@@ -18,7 +18,7 @@ struct FollowerConfig {
   double lookahead_s = 1.2;
   double lookahead_least_m = 0.3;
   double lookahead_most_m = 0.8;
-  double cut_corner_m = 0.1;
+  double cut_corner_m = 0.05;
   double turn_first_rad = 1.571;
   double narrow_m = 0.2;
   double off_route_m = 1.0;

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "grid/bitmap_sets.h"
+
 namespace dynslam {
 namespace {
 
-constexpr int kSameSurface = 2;         ///< cells
+// In cells.
+constexpr int kSameSurface = 2;         ///< a hit is of a drawn surface that is so near
+constexpr int kBeyond = 1;              ///< a surface is gone when so much behind it is seen
 constexpr std::uint8_t kClearly = 128;  ///< two looks at the least
 
 /// Whether the words of a bitmap in one chunk hold anything.
@@ -95,8 +99,28 @@ void LiveMap::draw(const ScanFootprint& scan) {
   }
   std::sort(hits_.begin(), hits_.end());
   hits_.erase(std::unique(hits_.begin(), hits_.end()), hits_.end());
-  grid_.apply(scan.misses, hits_);
-  recent_.apply(scan.misses, hits_);
+  const CellBitmap misses = sparing_surfaces(scan.misses);
+  grid_.apply(misses, hits_);
+  recent_.apply(misses, hits_);
+}
+
+/// What is seen aslant is off by a cell or two, and would eat walls. What is gone is missed with all around
+/// it.
+CellBitmap LiveMap::sparing_surfaces(const CellBitmap& misses) const {
+  const CellBitmap wide = shrunk_all_round(misses, kBeyond);
+  CellBitmap spared = misses;
+  for (std::int32_t y = misses.box().min.y; y <= misses.box().max.y; ++y) {
+    for (std::int32_t x = misses.box().min.x; x <= misses.box().max.x; ++x) {
+      const Chunk* chunk = grid_.find({x, y});
+      if (!chunk || !any_in(misses, {x, y})) continue;
+      const CellTile surfaces = cells_in_state(*chunk, CellState::kOccupied);
+      CellTile here = misses.tile({x, y});
+      const CellTile there = wide.tile({x, y});
+      for (std::size_t r = 0; r < here.size(); ++r) here[r] &= ~surfaces[r] | there[r];
+      spared.put({x, y}, here);
+    }
+  }
+  return spared;
 }
 
 bool LiveMap::is_surface(CellIndex c) const {

@@ -29,7 +29,7 @@ class LiveMap {
   /// Lets up to so many of them in, oldest first.
   void show(std::size_t most_chunks);
   /// A scan, in the map's frame. A hit within two cells of a surface that is drawn already is a hit of that
-  /// surface: ranges are not exact.
+  /// surface: ranges are not exact. For the same reason a surface is only missed with all cells around it.
   void draw(const ScanFootprint& scan);
 
   ChunkedGrid& grid() { return grid_; }
@@ -43,6 +43,7 @@ class LiveMap {
   void forget_recent();
   DrawnChunk with_recent(ChunkIndex index) const;
   CellIndex surface_near(CellIndex hit) const;
+  CellBitmap sparing_surfaces(const CellBitmap& misses) const;
   bool is_surface(CellIndex c) const;
 
   ChunkedGrid grid_;

@@ -149,26 +149,6 @@ TEST(FrontierMap, WhatIsForgottenIsNoFrontierForAWhile) {
   EXPECT_FALSE(frontiers.is_frontier({19, 25}));
 }
 
-TEST(FrontierMap, AWallThatIsSeenThroughIsNoFrontierForAWhile) {
-  Canvas canvas;
-  canvas.fill({0, 0}, 60, 60, CellState::kFree);
-  canvas.fill({0, 40}, 60, 1, CellState::kOccupied);
-  canvas.fill({0, 41}, 60, 19, CellState::kUnknown);
-  FrontierMap frontiers(with_depth(3));
-  Time now{};
-  frontiers.update(now, canvas.grid.snapshot());
-  canvas.fill({20, 40}, 15, 2, CellState::kFree);
-  frontiers.update(now, canvas.grid.snapshot());
-  EXPECT_FALSE(frontiers.is_frontier({25, 41}));
-  for (int s = 0; s < 120; ++s) frontiers.update(now += std::chrono::seconds(1), canvas.grid.snapshot());
-  EXPECT_TRUE(frontiers.is_frontier({25, 41})) << "it stays away";
-  canvas.fill({20, 40}, 15, 2, CellState::kOccupied);
-  frontiers.update(now, canvas.grid.snapshot());
-  canvas.fill({20, 40}, 15, 12, CellState::kFree);
-  frontiers.update(now, canvas.grid.snapshot());
-  EXPECT_TRUE(frontiers.is_frontier({25, 51})) << "a door that opens";
-}
-
 TEST(FrontierMap, TheEdgeOfTheUnknownMayBeRagged) {
   Canvas canvas;
   canvas.fill({0, 0}, 40, 40, CellState::kFree);

@@ -23,6 +23,15 @@ ScanFootprint scan(const std::vector<CellIndex>& hits, const std::vector<CellInd
   return footprint;
 }
 
+/// All cells from one corner to the other.
+std::vector<CellIndex> block(CellIndex low, CellIndex high) {
+  std::vector<CellIndex> cells;
+  for (std::int32_t y = low.y; y <= high.y; ++y) {
+    for (std::int32_t x = low.x; x <= high.x; ++x) cells.push_back({x, y});
+  }
+  return cells;
+}
+
 TEST(LiveMap, ShowsWhatWasDrawnAFewChunksATurn) {
   LiveMap map(0.02, 100);
   map.redrawn(std::vector{wall_in({0, 0}), wall_in({1, 0})});
@@ -56,7 +65,9 @@ TEST(LiveMap, WhatAppearsIsThereAtOnceAndGoesWhenItIsNotSeenAgain) {
   map.redrawn({});
   map.show(100);
   EXPECT_EQ(map.grid().state({30, 8}), CellState::kOccupied) << "the back end may not know yet";
-  map.draw(scan({}, {{30, 8}, {-20, -20}}));
+  std::vector<CellIndex> around = block({29, 7}, {31, 9});
+  around.push_back({-20, -20});
+  map.draw(scan({}, around));
   map.redrawn({});
   map.show(100);
   EXPECT_EQ(map.grid().state({30, 8}), CellState::kFree) << "now the back end knows better";
@@ -82,8 +93,20 @@ TEST(LiveMap, AWallThatIsGoneIsGoneAfterAFewScans) {
   map.show(1);
   int scans = 0;
   for (; map.grid().state({5, 20}) == CellState::kOccupied && scans < 100; ++scans)
-    map.draw(scan({}, {{5, 20}}));
+    map.draw(scan({}, block({2, 19}, {8, 21})));
   EXPECT_LE(scans, 10);
+  EXPECT_EQ(map.grid().state({2, 20}), CellState::kOccupied) << "one was not seen beyond";
+}
+
+TEST(LiveMap, AWallThatIsSeenAslantIsNotEaten) {
+  LiveMap map(0.02, 100);
+  map.redrawn(std::vector{wall_in({0, 0})});
+  map.show(1);
+  for (int i = 0; i < 100; ++i) map.draw(scan({{30, 22}}, block({2, 15}, {28, 20})));
+  for (int x = 2; x <= 28; ++x) EXPECT_EQ(map.grid().state({x, 20}), CellState::kOccupied) << x;
+  map.redrawn({});
+  map.show(100);
+  EXPECT_EQ(map.grid().state({10, 20}), CellState::kOccupied) << "nor when it is drawn anew";
 }
 
 }  // namespace
