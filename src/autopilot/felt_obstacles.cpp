@@ -10,19 +10,30 @@ namespace {
 constexpr Duration kRemembers = std::chrono::minutes(10);
 constexpr std::size_t kMost = 64;
 constexpr double kRadius_m = 0.08;
+/// Touched again it is larger than was thought, and each time by this.
+constexpr double kGrows_m = 0.15, kMostRadius_m = 0.4;
 constexpr int kCorners = 8;
 /// A pallet is a metre wide.
 constexpr double kOneThing_m = 1.0;
 /// Towards a corner of the robot.
 constexpr double kAside_rad = 0.7;
 
-std::vector<Vector2> outline_around(const Vector2& middle) {
+std::vector<Vector2> outline_around(const Vector2& middle, double radius_m) {
   std::vector<Vector2> outline;
   for (int i = 0; i < kCorners; ++i) {
     const double angle = kTwoPi * i / kCorners;
-    outline.emplace_back(middle + kRadius_m * Vector2(std::cos(angle), std::sin(angle)));
+    outline.emplace_back(middle + radius_m * Vector2(std::cos(angle), std::sin(angle)));
   }
   return outline;
+}
+
+bool is_one_thing(const Vector2& a, const Vector2& b) { return (a - b).norm() <= kOneThing_m; }
+
+/// Of one of the places where something was touched.
+double radius_among(const std::vector<Vector2>& places_map, const Vector2& place_map) {
+  const auto touches = std::count_if(places_map.begin(), places_map.end(),
+                                     [&](const Vector2& p) { return is_one_thing(p, place_map); });
+  return std::min(kRadius_m + kGrows_m * static_cast<double>(touches - 1), kMostRadius_m);
 }
 
 /// What joins two such outlines.
@@ -74,17 +85,15 @@ std::size_t FeltObstacles::count_since(Time since) const {
 }
 
 std::vector<std::vector<Vector2>> FeltObstacles::outlines_map() const {
-  std::vector<std::vector<Vector2>> outlines;
   std::vector<Vector2> places_map;
-  for (const Felt& f : felt_) {
-    if (!f.counts()) continue;
-    const Vector2& place = f.guesses_map[f.guess];
-    outlines.push_back(outline_around(place));
-    for (const Vector2& other : places_map) {
-      const double apart_m = (other - place).norm();
-      if (apart_m > 0 && apart_m <= kOneThing_m) outlines.push_back(outline_between(other, place));
-    }
-    places_map.push_back(place);
+  for (const Felt& f : felt_)
+    if (f.counts()) places_map.push_back(f.guesses_map[f.guess]);
+  std::vector<std::vector<Vector2>> outlines;
+  for (auto place = places_map.begin(); place != places_map.end(); ++place) {
+    outlines.push_back(outline_around(*place, radius_among(places_map, *place)));
+    for (auto other = places_map.begin(); other != place; ++other)
+      if (is_one_thing(*other, *place) && *other != *place)
+        outlines.push_back(outline_between(*other, *place));
   }
   return outlines;
 }

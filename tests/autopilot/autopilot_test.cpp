@@ -365,6 +365,7 @@ TEST(Autopilot, BacksOffFromWhatHoldsItThoughNoBumperTellsOfThat) {
     EXPECT_EQ(status.reason, "the wheels turn and the robot stays, and backs off");
     EXPECT_TRUE(pilot.autopilot.backs_off());
     while (pilot.autopilot.backs_off()) pilot.turn();
+    for (int n = 0; n < 200 && !pilot.autopilot.task(); ++n) pilot.turn();
     ASSERT_TRUE(pilot.autopilot.task()) << "it tries another way";
   }
   pilot.follow.state = Following::kStuck;

@@ -63,6 +63,21 @@ TEST(FeltObstacles, NearToEachOtherAreOneThing) {
   }
 }
 
+TEST(FeltObstacles, AreLargerEachTimeTheyAreTouched) {
+  FeltObstacles felt;
+  double before_m = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    felt.touched(kNow, {0.0, 0.1 * i, 0.0}, {0.3, 0.0}, kRadius_m);
+    const auto outline = felt.outlines_map().front();
+    const double radius_m = (outline.front() - middle_of(outline)).norm();
+    EXPECT_GT(radius_m, before_m);
+    before_m = radius_m;
+  }
+  for (int i = 0; i < 20; ++i) felt.touched(kNow, {}, {0.3, 0.0}, kRadius_m);
+  const auto outline = felt.outlines_map().front();
+  EXPECT_LT((outline.front() - middle_of(outline)).norm(), 0.5);
+}
+
 TEST(FeltObstacles, OfATurnCountsButLeavesNothing) {
   FeltObstacles felt;
   felt.touched(kNow, {}, {0.0, 1.0}, kRadius_m);
