@@ -94,7 +94,8 @@ std::vector<Exploration::Ranked> Exploration::frontiers_reached(Time now, std::s
   for (const Frontier& f : frontiers) {
     if (!f.middle_map.allFinite() || !counts(now, f.middle_map)) continue;
     std::optional<Vector2> stand_map = reach.nearest(f.middle_map, config_.stand_within_m);
-    const bool is_shut_off = !stand_map;
+    const bool is_shut_off = !stand_map, is_small = is_nook(f);
+    if (is_small && is_shut_off) continue;
     if (is_left_alone(now, f, is_shut_off)) continue;
     if (is_shut_off) ++left_out_.out_of_reach;
     if (is_shut_off && f.extent_m >= kDoor_m && !was_looked_at(f.middle_map)) {
@@ -102,7 +103,7 @@ std::vector<Exploration::Ranked> Exploration::frontiers_reached(Time now, std::s
       if (!stand_map) ++left_out_.cut_off;
     }
     const std::optional<double> route_m = stand_map ? route_to(*stand_map, reach) : std::nullopt;
-    if (!route_m) continue;
+    if (!route_m || (is_small && *route_m > config_.nook_way_m)) continue;
     const TriedPlaces::Tried* tried = frontiers_.find(f.middle_map);
     const int tries = tried ? tried->tries : 0;
     const double later_m = (is_shut_off ? kShutOffCost_m : 0.0) + config_.retry_cost_m * tries;

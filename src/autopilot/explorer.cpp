@@ -131,13 +131,14 @@ void Explorer::find_places(Time now, const Vector2& robot_map, const Costmap& co
       },
       [&](const Vector2& point) { return lengths->nearest_reached(point, kBeforeDoor_m); },
       [&] { return looked_m; }, look_farther};
-  const std::vector<Frontier> frontiers = frontier_map_.frontiers(last_look_);
+  std::vector<Frontier> frontiers = frontier_map_.frontiers(last_look_);
+  for (Frontier& f : frontiers) f.beyond_m2 = frontier_map_.beyond_m2(f);
   places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach, seemed_over_);
   remember_reachable();
   shut_.clear();
   for (const Frontier& f : frontiers) {
     if (!std::isinf(looked_m) || f.extent_m < kDoor_m || exploration_.was_looked_at(f.middle_map)) continue;
-    if (f.is_rest || lengths->nearest_reached(f.middle_map, kSeenFrom_m)) continue;
+    if (f.is_rest || exploration_.is_nook(f) || lengths->nearest_reached(f.middle_map, kSeenFrom_m)) continue;
     if (!is_near_any(once_reachable_, f.middle_map)) continue;
     const auto before_it = lengths->nearest_reached(f.middle_map, kBeforeDoor_m);
     shut_.push_back({PlaceKind::kOld, f.middle_map, before_it.value_or(f.middle_map),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct Frontier {
   Vector2 middle_map;     ///< of its cells the one nearest to their mean; free
   double extent_m = 0.0;  ///< the diagonal of the rectangle around it
   std::size_t cells = 0;
+  double beyond_m2 = std::numeric_limits<double>::infinity();  ///< of the unknown, as far as that was looked
   bool is_rest = false;  ///< less than one sets out for, but one that is on its way goes on
 };
 

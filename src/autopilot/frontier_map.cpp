@@ -212,6 +212,22 @@ std::vector<Frontier> FrontierMap::frontiers(bool last_look) const {
   return found;
 }
 
+double FrontierMap::beyond_m2(const Frontier& frontier) const {
+  const CellIndex middle = cell_at(frontier.middle_map, last_.cell_size_m());
+  const ChunkIndex index = chunk_of(middle);
+  ChunkWindow unknown = around(index, &Known::unknown);
+  keep_deep(unknown, depth_);
+  CellBitmap deep;
+  deep.reset({{index.x - 1, index.y - 1}, {index.x + 1, index.y + 1}});
+  for (int r = 0; r < deep.rows(); ++r)
+    std::copy_n(unknown[static_cast<std::size_t>(r)].begin(), deep.words_per_row(), deep.row(r));
+  std::vector<CellIndex> beside;
+  for (int dy = -within_ - 1; dy <= within_ + 1; ++dy) {
+    for (int dx = -within_ - 1; dx <= within_ + 1; ++dx) beside.push_back({middle.x + dx, middle.y + dy});
+  }
+  return static_cast<double>(flood_fill(deep, beside).count()) * last_.cell_size_m() * last_.cell_size_m();
+}
+
 bool FrontierMap::is_frontier(CellIndex c) const {
   const auto at = cells_.find(chunk_of(c));
   return at != cells_.end() &&

@@ -42,6 +42,8 @@ class FrontierMap {
   /// Where they make up something worth going to; `last_look`: or hardly. And what is left of such when half
   /// of it is seen.
   std::vector<Frontier> frontiers(bool last_look = false) const;
+  /// How much of the unknown begins at a frontier and is as deep as counts; about a metre around at the most.
+  double beyond_m2(const Frontier& frontier) const;
 
  private:
   struct Known {

@@ -153,6 +153,37 @@ TEST(Exploration, GoesFartherForWhatShowsMore) {
   EXPECT_GT(places[0].route_m, places[1].route_m);
 }
 
+TEST(Exploration, ANookIsNotWorthALongWay) {
+  const Flat flat(kTwoDoors);
+  std::vector<Frontier> frontiers = flat.frontiers;
+  ASSERT_EQ(frontiers.size(), 2U);
+  ExplorationConfig config;
+  config.nook_way_m = 1.5;
+  const auto places = [&] {
+    return Exploration(config).places(Time(), flat.robot, frontiers, VisitMap(), flat.map, flat.reach());
+  };
+  for (Frontier& f : frontiers) f.beyond_m2 = 0.9 * config.nook_m2;
+  ASSERT_EQ(places().size(), 1U);
+  EXPECT_LT(places()[0].route_m, 1.5);
+  for (Frontier& f : frontiers) f.beyond_m2 = 1.1 * config.nook_m2;
+  EXPECT_EQ(places().size(), 2U);
+}
+
+TEST(Exploration, NobodyWaitsForADoorToANook) {
+  const Flat flat(kTwoDoors);
+  std::vector<Frontier> frontiers = flat.frontiers;
+  Reachability reach = flat.reach();
+  reach.nearest = [](const Vector2&, double) { return std::nullopt; };
+  reach.before_door = [&](const Vector2&) { return std::optional(flat.robot); };
+  const auto are_places = [&] {
+    const auto places = Exploration().places(Time(), flat.robot, frontiers, VisitMap(), flat.map, reach);
+    return !places.empty() && places[0].kind == PlaceKind::kFrontier;
+  };
+  EXPECT_TRUE(are_places());
+  for (Frontier& f : frontiers) f.beyond_m2 = 0.1;
+  EXPECT_FALSE(are_places());
+}
+
 TEST(Exploration, DoesNotDitherBetweenTwo) {
   Explorer e(kTwoDoors);
   const Vector2 first = e.places()[0].point_map;

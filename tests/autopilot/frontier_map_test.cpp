@@ -180,6 +180,27 @@ TEST(FrontierMap, GapsBetweenRaysDoNotHideWhatLiesBeyond) {
   EXPECT_FALSE(frontiers.is_frontier({20, 45})) << "rays beyond a wall, with gaps between";
 }
 
+TEST(FrontierMap, TellsHowMuchLiesBeyond) {
+  for (const int x0 : {-70, -20, 40}) {
+    Canvas canvas;
+    canvas.fill({x0, 0}, 50, 20, CellState::kFree);
+    // Left a nook of 10 x 6 cells behind a gap in the wall, right the open.
+    canvas.fill({x0, 20}, 26, 8, CellState::kOccupied);
+    canvas.fill({x0 + 10, 20}, 10, 1, CellState::kFree);
+    canvas.fill({x0 + 10, 21}, 10, 6, CellState::kUnknown);
+    FrontierMap map(with_depth(4));
+    map.update({}, canvas.grid.snapshot());
+    Frontier nook, open;
+    nook.middle_map = cell_centre({x0 + 15, 20}, kCell_m);
+    open.middle_map = cell_centre({x0 + 38, 19}, kCell_m);
+    EXPECT_NEAR(map.beyond_m2(nook), 60 * kCell_m * kCell_m, 1e-9) << x0;
+    EXPECT_GT(map.beyond_m2(open), 4.0) << x0;
+    canvas.fill({x0 + 10, 24}, 10, 1, CellState::kOccupied);
+    map.update({}, canvas.grid.snapshot());
+    EXPECT_EQ(map.beyond_m2(nook), 0.0) << "too shallow to count";
+  }
+}
+
 TEST(FrontierMap, KeepsUpWithAChangingMap) {
   std::mt19937 random(3);
   for (const auto& [depth, width] : {std::pair{1, 1}, {5, 1}, {1, 3}, {4, 3}, {8, 5}}) {
