@@ -85,8 +85,8 @@ class Exploration {
   /// It was seen from afar, and is a place of interest no more.
   void vanished(Time now, const Place& place);
 
-  /// Hardly anything is to be seen beyond it.
-  bool is_nook(const Frontier& frontier) const { return frontier.beyond_m2 < config_.nook_m2; }
+  /// Hardly anything is to be seen there.
+  bool is_nook(const Frontier& f) const { return f.is_short || f.beyond_m2 < config_.nook_m2; }
 
   /// It was looked at from near, and stayed what it was.
   bool was_looked_at(const Vector2& frontier_map) const;

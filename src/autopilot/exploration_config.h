@@ -16,7 +16,7 @@ struct ExplorationConfig {
   double most_extent_m = 3.0;
   double merge_within_m = 0.2;
   double stand_within_m = 0.8;
-  double nook_m2 = 0.5;
+  double nook_m2 = 1.0;
   double nook_way_m = 6.0;
   double gain_weight = 1.0;
   double keep_m = 1.5;
@@ -51,7 +51,8 @@ struct ExplorationConfig {
           self.stand_within_m);
     visit(Field{"nook_m2", "where less than so much is left to be seen, it is a nook", 0.0, 100.0},
           self.nook_m2);
-    visit(Field{"nook_way_m", "and not worth a longer way than this", 0.0, 1e6}, self.nook_way_m);
+    visit(Field{"nook_way_m", "and not worth a longer way than this, nor is a last look", 0.0, 1e6},
+          self.nook_way_m);
     visit(Field{"gain_weight", "how many metres of way a metre of frontier is worth", 0.0, 100.0},
           self.gain_weight);
     visit(Field{"keep_m", "another frontier is chosen when it is better by this many metres of way", 0.0,

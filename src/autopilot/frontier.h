@@ -18,7 +18,8 @@ struct Frontier {
   double extent_m = 0.0;  ///< the diagonal of the rectangle around it
   std::size_t cells = 0;
   double beyond_m2 = std::numeric_limits<double>::infinity();  ///< of the unknown, as far as that was looked
-  bool is_rest = false;  ///< less than one sets out for, but one that is on its way goes on
+  bool is_rest = false;   ///< less than one sets out for, but one that is on its way goes on
+  bool is_short = false;  ///< worth but a last look
 };
 
 /// What frontier cells make up: those that touch, corners too, are one; what is too long is cut across its

@@ -208,6 +208,7 @@ std::vector<Frontier> FrontierMap::frontiers(bool last_look) const {
   for (Frontier& f : found) {
     const double length_m = static_cast<double>(f.cells) * last_.cell_size_m();
     f.is_rest = length_m < config.least_length_m - 1e-9 || f.extent_m < config.least_extent_m - 1e-9;
+    f.is_short = !f.is_rest && length_m < config_.least_length_m - 1e-9;
   }
   return found;
 }
