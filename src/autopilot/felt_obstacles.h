@@ -13,7 +13,8 @@ namespace dynslam {
 /// What the robot ran into and its lidar does not see: kept out of for a while, as are areas that people
 /// drew. Where along its front it touched is a guess: in the middle; if that shuts the way, on the left, then
 /// on the right. What it ran into at places near to each other is one thing: it shuts the way between them
-/// too, and is kept away from the farther the more often it was touched. In the map's frame as it was then. One thread.
+/// too, and is kept away from the farther the more often it was touched. In the map's frame as it was then.
+/// One thread.
 class FeltObstacles {
  public:
   /// It touched something, driving like this.

@@ -167,6 +167,8 @@ TEST(Exploration, ANookIsNotWorthALongWay) {
   EXPECT_LT(places()[0].route_m, 1.5);
   for (Frontier& f : frontiers) f.beyond_m2 = 1.1 * config.nook_m2;
   EXPECT_EQ(places().size(), 2U);
+  for (Frontier& f : frontiers) f.is_short = true;
+  EXPECT_EQ(places().size(), 1U) << "nor is a last look";
 }
 
 TEST(Exploration, NobodyWaitsForADoorToANook) {

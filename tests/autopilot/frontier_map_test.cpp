@@ -201,6 +201,27 @@ TEST(FrontierMap, TellsHowMuchLiesBeyond) {
   }
 }
 
+TEST(FrontierMap, TellsWhatIsWorthButALastLook) {
+  Canvas canvas;
+  canvas.fill({0, 0}, 60, 20, CellState::kFree);
+  canvas.fill({0, 20}, 60, 1, CellState::kOccupied);
+  canvas.fill({10, 20}, 7, 1, CellState::kFree);
+  canvas.fill({30, 20}, 12, 1, CellState::kFree);
+  canvas.fill({-1, -1}, 62, 1, CellState::kOccupied);
+  canvas.fill({-1, -1}, 1, 22, CellState::kOccupied);
+  canvas.fill({60, -1}, 1, 22, CellState::kOccupied);
+  ExplorationConfig config = with_depth(4);
+  config.least_length_m = 0.5;
+  config.last_look_length_m = 0.3;
+  FrontierMap map(config);
+  map.update({}, canvas.grid.snapshot());
+  const std::vector<Frontier> found = map.frontiers(true);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_TRUE(found[0].is_short) << "0.35 m";
+  EXPECT_FALSE(found[1].is_short) << "0.6 m";
+  for (const Frontier& f : map.frontiers()) EXPECT_FALSE(f.is_short) << "a rest at most";
+}
+
 TEST(FrontierMap, KeepsUpWithAChangingMap) {
   std::mt19937 random(3);
   for (const auto& [depth, width] : {std::pair{1, 1}, {5, 1}, {1, 3}, {4, 3}, {8, 5}}) {
