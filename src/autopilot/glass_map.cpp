@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace dynslam {
 namespace {
@@ -33,7 +34,8 @@ bool GlassMap::see(Time now, std::span<const Segment> panes_map, const Vector2& 
     double known_m = 0.0;
     std::erase_if(panes_, [&](const Pane& p) {
       const auto both = joined(whole, p.at_map, kSameLine_m, kGap_m);
-      if (both) whole = *both, known_m += p.at_map.length_m();
+      if (both) whole = *both;
+      if (both && !p.is_doubted) known_m += p.at_map.length_m();
       return both.has_value();
     });
     changed = changed || whole.length_m() > known_m + kNews_m;
@@ -44,21 +46,23 @@ bool GlassMap::see(Time now, std::span<const Segment> panes_map, const Vector2& 
 }
 
 bool GlassMap::doubt() {
-  const bool changes = !outlines_map().empty();
-  doubted_ = true;
-  return changes;
+  if (doubts_ || panes_.empty()) return false;
+  doubts_ = true;
+  for (Pane& p : panes_) p.is_doubted = true;
+  return true;
 }
 
 bool GlassMap::trust() {
-  const bool changes = doubted_ && !panes_.empty();
-  doubted_ = false;
+  doubts_ = false;
+  bool changes = false;
+  for (Pane& p : panes_) changes = std::exchange(p.is_doubted, false) || changes;
   return changes;
 }
 
 std::vector<std::vector<Vector2>> GlassMap::outlines_map() const {
   std::vector<std::vector<Vector2>> outlines;
-  if (doubted_) return outlines;
   for (const Pane& pane : panes_) {
+    if (pane.is_doubted) continue;
     const Segment& s = pane.at_map;
     const Vector2 along = (s.to - s.from) / s.length_m();
     const Vector2 aside = kThick_m * Vector2(-along.y(), along.x());

@@ -16,8 +16,8 @@ class GlassMap {
   /// Panes that are seen now, from a robot that is at a place and therefore not in one. Returns whether
   /// anything changed worth planning anew.
   bool see(Time now, std::span<const Segment> panes_map, const Vector2& robot_map);
-  /// They shut the way, and may be open by now: they count for nothing until trust(). Returns whether that
-  /// changes anything.
+  /// They shut the way, and may be open by now: they count for nothing until they are seen again, or trust();
+  /// until that one doubts but once. Returns whether that changes anything.
   bool doubt();
   bool trust();
 
@@ -28,9 +28,10 @@ class GlassMap {
   struct Pane {
     Segment at_map;
     Time seen;
+    bool is_doubted = false;
   };
   std::vector<Pane> panes_;
-  bool doubted_ = false;
+  bool doubts_ = false;
 };
 
 }  // namespace dynslam

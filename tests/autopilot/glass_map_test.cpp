@@ -50,5 +50,20 @@ TEST(GlassMap, DoubtsAndForgets) {
   EXPECT_TRUE(glass.outlines_map().empty());
 }
 
+TEST(GlassMap, WhatIsSeenAgainIsDoubtedNoMore) {
+  GlassMap glass;
+  see(glass, {{0, 1}, {2, 1}});
+  see(glass, {{5, 1}, {6, 1}});
+  EXPECT_TRUE(glass.doubt());
+  EXPECT_TRUE(see(glass, {{1.0, 1}, {1.2, 1}})) << "a part of it";
+  ASSERT_EQ(glass.outlines_map().size(), 1U) << "all of it, and nothing else";
+  EXPECT_LT(glass.outlines_map()[0][0].x(), 2.1);
+  EXPECT_FALSE(glass.doubt()) << "once is enough";
+  EXPECT_TRUE(glass.trust());
+  EXPECT_EQ(glass.outlines_map().size(), 2U);
+  EXPECT_TRUE(glass.doubt());
+  EXPECT_TRUE(glass.outlines_map().empty());
+}
+
 }  // namespace
 }  // namespace dynslam
