@@ -5,13 +5,13 @@
 #include <cstdlib>
 
 #include "grid/bitmap_sets.h"
+#include "grid/flood_fill.h"
 
 namespace dynslam {
 namespace {
 
-// In cells.
-constexpr int kSameSurface = 2;         ///< a hit is of a drawn surface that is so near
-constexpr int kBeyond = 1;              ///< a surface is gone when so much behind it is seen
+constexpr int kSameSurface = 2;         ///< cells; a hit is of a drawn surface that is so near
+constexpr int kBeyond = 1;              ///< cells; a surface is gone when so much behind it is seen
 constexpr std::uint8_t kClearly = 128;  ///< two looks at the least
 
 /// Whether the words of a bitmap in one chunk hold anything.
