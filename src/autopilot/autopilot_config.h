@@ -35,8 +35,8 @@ struct AutopilotConfig {
     visit(Field{"look_round_radps", "and how fast", 0.1, 3.0}, self.look_round_radps);
     visit(Field{"most_touches",
                 "so often within a minute of one errand it backs off from what it touched, or what holds it "
-                "while "
-                "its wheels turn, and goes on; then, or with 0 at once, it stops and a person has to look",
+                "while its wheels turn, and goes on; then, or with 0 at once, it stops and a person has "
+                "to look",
                 0, 100},
           self.most_touches);
     visit(Field{"patience_s", "lost or without a sensor for so long, it gives up", 1.0, 3600.0},

@@ -16,9 +16,10 @@ class GlassMap {
   /// Panes that are seen now, from a robot that is at a place and therefore not in one. Returns whether
   /// anything changed worth planning anew.
   bool see(Time now, std::span<const Segment> panes_map, const Vector2& robot_map);
-  /// They shut the way, and may be open by now: they count for nothing until they are seen again, or trust();
-  /// until that one doubts but once. Returns whether that changes anything.
+  /// They shut the way, and may be open by now: each counts for nothing until it is seen again, or trust().
+  /// They are doubted once, and not again before trust(). Returns whether that changes anything.
   bool doubt();
+  /// What was doubted counts again. Returns whether that changes anything.
   bool trust();
 
   /// Thin outlines in the map.
@@ -31,7 +32,7 @@ class GlassMap {
     bool is_doubted = false;
   };
   std::vector<Pane> panes_;
-  bool doubts_ = false;
+  bool doubts_ = false;  ///< since trust()
 };
 
 }  // namespace dynslam
