@@ -174,13 +174,16 @@ std::optional<std::size_t> PathPlanner::first_blocked_leg(const Costmap& costmap
   const double reach_m = route_map.empty() || !costmap.contains(route_map.front())
                              ? 0.0
                              : way_out_reach_m(costmap, route_map.front());
+  const bool leaves_forbidden =
+      reach_m > 0.0 && costmap.is_forbidden(cell_at(route_map.front(), costmap.cell_size_m()));
   const auto is_passable = [&](CellIndex c) {
     if (costmap.clearance_steps(c) >= legs.least_clearance()) {
       on_way_out = false;
       return true;
     }
     const Vector2 from_start = cell_centre(c, costmap.cell_size_m()) - route_map.front();
-    return on_way_out && from_start.norm() <= reach_m && !costmap.is_occupied(c);
+    return on_way_out && from_start.norm() <= reach_m && !costmap.is_occupied(c) &&
+           (leaves_forbidden || !costmap.is_forbidden(c));
   };
   for (std::size_t i = 0; i + 1 < route_map.size(); ++i) {
     const Vector2 &from = route_map[i], &to = route_map[i + 1];

@@ -51,8 +51,8 @@ class PathPlanner {
   Plan plan(const Costmap& costmap, const PlanRequest& request);
 
   /// The first leg of a polyline that does not keep the pruning margin. Of the way out of a tight place, up
-  /// to way_out_reach_m() from the first point, only what is occupied counts. What is unknown is left to the
-  /// caller.
+  /// to way_out_reach_m() from the first point, only what is occupied counts, and what is forbidden unless
+  /// the first point is so. What is unknown is left to the caller.
   std::optional<std::size_t> first_blocked_leg(const Costmap& costmap,
                                                std::span<const Vector2> route_map) const;
 

@@ -30,7 +30,8 @@ class WayOut {
         least_steps_(pocket ? ground.least_clearance() / 2 : 0),
         radius_(static_cast<int>(way_out_reach_m(map, cell_centre(start, map.cell_size_m())) /
                                  map.cell_size_m())),
-        own_body_(map.is_occupied(start) ? static_cast<int>(kOwnBody_m / map.cell_size_m()) : 0) {}
+        own_body_(map.is_occupied(start) ? static_cast<int>(kOwnBody_m / map.cell_size_m()) : 0),
+        leaves_forbidden_(map.is_forbidden(start)) {}
 
   /// The cells from the start to the end.
   std::optional<std::vector<CellIndex>> find() {
@@ -71,6 +72,7 @@ class WayOut {
     const int dx = c.x - start_.x, dy = c.y - start_.y, square = dx * dx + dy * dy;
     if (square > radius_ * radius_ || !map_.contains(c)) return false;
     if (map_.clearance_steps(c) < least_steps_) return false;
+    if (map_.is_forbidden(c) && !leaves_forbidden_) return false;
     return square <= own_body_ * own_body_ || !map_.is_occupied(c);
   }
   void expand(CellIndex c, int cost) {
@@ -104,6 +106,7 @@ class WayOut {
   const Pocket& pocket_;
   int least_steps_;
   int radius_, own_body_;  ///< cells
+  bool leaves_forbidden_;
   std::vector<Node> nodes_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };

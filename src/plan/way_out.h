@@ -15,7 +15,8 @@ double way_out_reach_m(const Costmap& map, const Vector2& start_map);
 
 /// From the start to the nearest place from which the search can go on: only the start where it has room;
 /// else points along cells, rather where there is more room, never through what the map has occupied (but out
-/// of it, where the start itself shows as occupied), across no-go areas and unknown ground if need be.
+/// of it, where the start itself shows as occupied), across unknown ground if need be, and across no-go areas
+/// where the start lies in one.
 /// Nothing when there is no such place within way_out_reach_m(). REQUIRES: the map's box holds the start.
 std::optional<std::vector<Vector2>> way_out(const Costmap& map, const Ground& ground,
                                             const Vector2& start_map);

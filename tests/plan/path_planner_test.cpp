@@ -189,6 +189,24 @@ TEST(PathPlanner, LeavesANoGoAreaThatItStandsIn) {
   EXPECT_FALSE(PathPlanner({}, kRadius_m).first_blocked_leg(map, far.route_map)) << "however far it is";
 }
 
+/// As beside a pane, which is kept out of as a thin area.
+TEST(PathPlanner, FindsItsWayOutFromBesideANoGoAreaButNotThroughIt) {
+  DrawnFloor floor;
+  floor.clear(0, 0, 6, 4);
+  Costmap map = floor.costmap();
+  const Vector2 start(2.9, 2), goal(5, 2);
+  const std::vector<Vector2> across{start, goal};
+  const PathPlanner planner({}, kRadius_m);
+  EXPECT_FALSE(planner.first_blocked_leg(map, across));
+  map.set_forbidden(std::vector<std::vector<Vector2>>{{{3, 0.9}, {3.04, 0.9}, {3.04, 4}, {3, 4}}});
+  map.update(floor.grid.snapshot());
+  EXPECT_EQ(planner.first_blocked_leg(map, across), 0U);
+  const Plan plan = plan_on(map, start, goal);
+  ASSERT_EQ(plan.outcome, PlanOutcome::kFound) << plan.reason;
+  EXPECT_LT(crossing_at(plan.route_map, 3.02), 0.9);
+  EXPECT_FALSE(planner.first_blocked_leg(map, plan.route_map)) << "near to it as it begins";
+}
+
 TEST(PathPlanner, FindsItsWayOutOfATightPlaceButThroughNoWall) {
   DrawnFloor floor = two_rooms();
   const Costmap map = floor.costmap();
