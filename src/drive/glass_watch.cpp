@@ -25,11 +25,15 @@ constexpr double kBehind_m = 0.25;
 constexpr double kSameLine_m = 0.05, kNext_m = 0.12, kKeeps_m = 0.5;
 // and wander: so far the robot has moved along them, and so much they may lag behind.
 constexpr double kMoved_m = 0.15, kLag = 0.3, kLag_m = 0.03;
-constexpr Duration kSureAfter = std::chrono::milliseconds(600);
+constexpr Duration kSureAfter = std::chrono::milliseconds(600), kLikelyAfter = std::chrono::milliseconds(300);
 constexpr Duration kForgets = std::chrono::milliseconds(1500), kForgetsHidden = std::chrono::seconds(30);
+/// So long it is where it was, as far as the robot knows how it moved.
+constexpr Duration kJustHidden = std::chrono::seconds(1);
 constexpr double kHiddenWithin_m = 0.08;  ///< and the blind zone
 // What is added of a pane: about the robot, and beyond what was seen of it.
 constexpr double kNear_m = 1.0, kAbout_m = 0.35, kBeyond_m = 0.3, kStep_m = 0.02;
+/// The way out from where it cannot be seen is away from it, not along it.
+constexpr double kBeyondHidden_m = 1.0;
 /// Of what is as near as this only the beams come back that noise makes longer.
 constexpr double kMayBeNearer_m = 0.015;
 constexpr std::size_t kMostTracks = 64;
@@ -91,8 +95,7 @@ void GlassWatch::see(std::span<const ObstaclePoint> points, const Look& look) {
   std::erase_if(tracks_, [&](Track& t) {
     for (Vector2* p : {&t.all.from, &t.all.to, &t.patch.from, &t.patch.to, &t.first, &t.lidar_first})
       *p = now_T_before * *p;
-    const bool hidden = off_line_m(t.patch, lidar_) < blind_m_ + kHiddenWithin_m && stays_glass(t);
-    return look.end - t.seen > (hidden ? kForgetsHidden : kForgets);
+    return look.end - t.seen > (is_hidden(t) ? kForgetsHidden : kForgets);
   });
   for (const Points& thing : things_of(points, look.robot_T_lidar.inverse()))
     if (const auto patch = patch_of(thing, look.sight))
@@ -131,15 +134,23 @@ bool GlassWatch::wanders_as_glass(const Track& t) const {
 }
 
 /// Somebody who walks beside the robot does not do so for long.
-bool GlassWatch::stays_glass(const Track& t) { return t.pane_since && t.seen - *t.pane_since > kSureAfter; }
+bool GlassWatch::was_glass_for(const Track& t, Duration least) {
+  return t.pane_since && t.seen - *t.pane_since > least;
+}
+
+/// It came too near to be seen, and may go on for as long as it does.
+bool GlassWatch::is_hidden(const Track& t) const {
+  return off_line_m(t.patch, lidar_) < blind_m_ + kHiddenWithin_m && was_glass_for(t, kLikelyAfter);
+}
 
 void GlassWatch::add_to(std::vector<ObstaclePoint>& points, const BodyConfig& body) const {
   for (const Track& t : tracks_) {
     if (!t.pane_since || off_line_m(t.patch, lidar_) > kNear_m) continue;
     const double here = span_along(t.patch, {lidar_, lidar_}).low;
     const Span all = span_along(t.patch, t.all);
-    const double low = std::max(here - kAbout_m, all.low - kBeyond_m);
-    const double high = std::min(here + kAbout_m, all.high + kBeyond_m);
+    const double beyond_m = is_hidden(t) ? kBeyondHidden_m : kBeyond_m;
+    const double low = std::max(here - kAbout_m, all.low - beyond_m);
+    const double high = std::min(here + kAbout_m, all.high + beyond_m);
     const Vector2 foot = on_line(t.patch, {here, here}).from;
     const Vector2 nearer = kMayBeNearer_m * (lidar_ - foot).normalized();
     for (double at = low; at <= high; at += kStep_m) {
@@ -152,8 +163,13 @@ void GlassWatch::add_to(std::vector<ObstaclePoint>& points, const BodyConfig& bo
 
 std::vector<Segment> GlassWatch::panes() const {
   std::vector<Segment> panes;
-  for (const Track& t : tracks_)
-    if (stays_glass(t) && t.seen == end_) panes.push_back(t.all);
+  for (const Track& t : tracks_) {
+    if (t.seen == end_ && was_glass_for(t, kSureAfter)) {
+      panes.push_back(t.all);
+    } else if (end_ - t.seen < kJustHidden && is_hidden(t)) {
+      panes.push_back(on_line(t.all, {-kBeyondHidden_m, t.all.length_m() + kBeyondHidden_m}));
+    }
+  }
   return panes;
 }
 

@@ -26,7 +26,8 @@ class GlassWatch {
   void add_to(std::vector<ObstaclePoint>& points, const BodyConfig& body) const;
   void forget() { tracks_.clear(); }
 
-  /// What was seen squarely of panes that are surely some, from the robot at the end of that scan.
+  /// What was seen squarely of panes that are surely some, or came too near to be seen, from the robot at the
+  /// end of that scan.
   std::vector<Segment> panes() const;
 
  private:
@@ -39,7 +40,8 @@ class GlassWatch {
   };
   void follow(const Segment& patch, Time now);
   bool wanders_as_glass(const Track& track) const;
-  static bool stays_glass(const Track& track);
+  static bool was_glass_for(const Track& track, Duration least);
+  bool is_hidden(const Track& track) const;
 
   double blind_m_;
   Time end_;                         ///< of the last scan

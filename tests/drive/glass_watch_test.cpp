@@ -107,7 +107,7 @@ TEST(GlassWatch, ForgetsWhatItSeesNoMoreUnlessItIsTooNearToBeSeenAndWasGlassForS
     int scans;
     bool keeps;
   };
-  for (const auto& [away_m, scans, keeps] : {Case{0.5, 30, false}, {0.22, 30, true}, {0.22, 14, false}}) {
+  for (const auto& [away_m, scans, keeps] : {Case{0.5, 30, false}, {0.22, 30, true}, {0.22, 10, false}}) {
     Walk walk({-2, 1.0 - away_m, 0.0});
     GlassWatch watch(0.2);
     Time now{};
@@ -132,6 +132,27 @@ TEST(GlassWatch, ForgetsWhatItSeesNoMoreUnlessItIsTooNearToBeSeenAndWasGlassForS
     watch.see({}, {now, {}, Sight(nothing, 0.0), std::nullopt});
     EXPECT_EQ(added(), 0U) << "nobody knows where it is";
   }
+}
+
+/// Who comes to it aslant from near sees but little of it before he sees nothing.
+TEST(GlassWatch, TellsAtLastOfAPaneThatComesTooNearToBeSeen) {
+  Walk walk({-2, 0.728, 0.3});
+  walk.solid = {kHall, {}};
+  bool told = false;
+  while (walk.at.y < 0.795) {
+    walk.step();
+    EXPECT_TRUE(walk.clearance.panes().empty()) << walk.at.y;
+  }
+  for (int i = 0; i < 6; ++i) {
+    walk.step();
+    for (const Segment& pane : walk.clearance.panes()) {
+      told = true;
+      EXPECT_GT(pane.length_m(), 2.0) << "and takes it to go on";
+      const Segment in_map{walk.at * pane.from, walk.at * pane.to};
+      EXPECT_NEAR(0.5 * (in_map.from.y() + in_map.to.y()), 1.0, 0.03);
+    }
+  }
+  EXPECT_TRUE(told);
 }
 
 TEST(GlassWatch, GoesOnALittleBesideThePatchOnly) {
