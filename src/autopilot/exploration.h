@@ -37,7 +37,7 @@ struct Reachability {
   /// Of the points that there is a route to the nearest to a point, from which it is in sight; none: none is
   /// so near.
   std::function<std::optional<Vector2>(const Vector2& point_map, double within_m)> nearest;
-  /// The same, but with something between: where to see whether a door has opened.
+  /// Before what shuts the way that there was to a point once: where to see whether a door has opened.
   std::function<std::optional<Vector2>(const Vector2& point_map)> before_door = [](const Vector2&) {
     return std::optional<Vector2>();
   };
@@ -55,7 +55,7 @@ struct LeftOut {
   std::size_t waiting = 0;       ///< tried in vain, to be tried again
   std::size_t given_up = 0;      ///< tried in vain too often
   std::size_t out_of_reach = 0;  ///< no route to where it would be seen
-  std::size_t cut_off = 0;       ///< of these as wide as a door, with no way to anywhere near
+  std::size_t cut_off = 0;       ///< of these as wide as a door, where there never was a route
   std::optional<Time> next;      ///< when the first of those that had no route may be tried again
 };
 

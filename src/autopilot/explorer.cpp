@@ -20,18 +20,11 @@ constexpr Duration kSure = std::chrono::seconds(5);
 /// Who stands in the only way out has gone on by then.
 constexpr Duration kWayFree = std::chrono::seconds(20);
 constexpr double kSeenFrom_m = 0.8;
-/// To where a shut door is looked at from, at most, from what lies behind it.
-constexpr double kBeforeDoor_m = 3.0;
-constexpr double kNoWay_m = 1e6;
-constexpr std::size_t kMostRemembered = 1000;
+/// There is ground so near to what is to be seen.
+constexpr double kBeside_m = 0.4;
 /// Routes are looked for within so far of the robot first; a map with longer ones than the second is looked
 /// at whole.
 constexpr double kLooksFirst_m = 12.0, kLooksAll_m = 100.0;
-
-bool is_near_any(const std::deque<Vector2>& points, const Vector2& point) {
-  return std::any_of(points.begin(), points.end(),
-                     [&](const Vector2& p) { return (p - point).norm() < kSamePlace_m; });
-}
 
 /// Through a closed door, or a wall, nothing is seen.
 bool is_in_sight(const GridSnapshot& map, const Vector2& from, const Vector2& to) {
@@ -53,7 +46,6 @@ void Explorer::begin() {
   aim_.reset();
   places_.clear();
   chosen_at_.reset();
-  once_reachable_.clear();
   shut_.clear();
   seems_over_since_.reset();
   judged_at_.reset();
@@ -123,48 +115,44 @@ void Explorer::find_places(Time now, const Vector2& robot_map, const Costmap& co
     lengths = &planner.reach(costmap, robot_map, looked_m);
     return true;
   };
-  const Reachability reach{
-      [&](const Vector2& point) { return lengths->length_m(point); },
-      [&](const Vector2& point, double within_m) {
-        const auto stand = lengths->nearest_reached(point, within_m);
-        return stand && is_in_sight(map_, *stand, point) ? stand : std::nullopt;
-      },
-      [&](const Vector2& point) { return lengths->nearest_reached(point, kBeforeDoor_m); },
-      [&] { return looked_m; }, look_farther};
+  const Reachability reach{[&](const Vector2& point) { return lengths->length_m(point); },
+                           [&](const Vector2& point, double within_m) {
+                             const auto stand = lengths->nearest_reached(point, within_m);
+                             return stand && is_in_sight(map_, *stand, point) ? stand : std::nullopt;
+                           },
+                           [&](const Vector2& point) {
+                             return std::isinf(looked_m) ? lengths->before_what_shuts(point, kBeside_m)
+                                                         : std::nullopt;
+                           },
+                           [&] { return looked_m; }, look_farther};
   std::vector<Frontier> frontiers = frontier_map_.frontiers(last_look_);
   for (Frontier& f : frontiers) f.beyond_m2 = frontier_map_.beyond_m2(f);
   places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach, seemed_over_);
-  remember_reachable();
   shut_.clear();
-  for (const Frontier& f : frontiers) {
-    if (!std::isinf(looked_m) || f.extent_m < kDoor_m || exploration_.was_looked_at(f.middle_map)) continue;
-    if (f.is_rest || exploration_.is_nook(f) || lengths->nearest_reached(f.middle_map, kSeenFrom_m)) continue;
-    if (!is_near_any(once_reachable_, f.middle_map)) continue;
-    const auto before_it = lengths->nearest_reached(f.middle_map, kBeforeDoor_m);
-    shut_.push_back({PlaceKind::kOld, f.middle_map, before_it.value_or(f.middle_map),
-                     before_it ? lengths->length_m(*before_it).value_or(0.0) : kNoWay_m});
-  }
+  if (std::isinf(looked_m)) find_shut(frontiers, *lengths);
   judge(now);
 }
 
-/// Where nothing new can be reached: before a door that was shut, until that is given up; about the room,
-/// when the door is too far to be seen; else it stands still to make sure, unless it goes on for ever.
+void Explorer::find_shut(const std::vector<Frontier>& frontiers, const RouteLengths& lengths) {
+  for (const Frontier& f : frontiers) {
+    if (f.extent_m < kDoor_m || exploration_.was_looked_at(f.middle_map)) continue;
+    if (f.is_rest || exploration_.is_nook(f) || lengths.nearest_reached(f.middle_map, kSeenFrom_m)) continue;
+    const auto before_it = lengths.before_what_shuts(f.middle_map, kBeside_m);
+    if (!before_it) continue;
+    shut_.push_back({PlaceKind::kOld, f.middle_map, *before_it, lengths.length_m(*before_it).value_or(0.0)});
+  }
+}
+
+/// Where nothing new can be reached: before a door that was shut, until that is given up; else it stands
+/// still to make sure, unless it goes on for ever.
 void Explorer::wait_well(const Vector2& robot_map) {
   const auto nearest = std::min_element(shut_.begin(), shut_.end(),
                                         [](const Place& a, const Place& b) { return a.route_m < b.route_m; });
   if (nearest == shut_.end() || over_) {
     if (!goes_on()) places_.clear();
-  } else if (nearest->route_m < kNoWay_m) {
+  } else {
     places_ = {*nearest};
     if ((nearest->stand_map - robot_map).norm() < kSamePlace_m) places_.clear();
-  }
-}
-
-void Explorer::remember_reachable() {
-  for (const Place& place : places_) {
-    if (place.kind != PlaceKind::kFrontier) return;
-    if (!is_near_any(once_reachable_, place.point_map)) once_reachable_.push_back(place.point_map);
-    if (once_reachable_.size() > kMostRemembered) once_reachable_.pop_front();
   }
 }
 

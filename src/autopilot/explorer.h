@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -48,9 +47,9 @@ class Explorer {
   bool is_seen(const Place& place) const;
   bool holds_aim(Time now);
   void find_places(Time now, const Vector2& robot_map, const Costmap& costmap, PathPlanner& planner);
-  void remember_reachable();
   void wait_well(const Vector2& robot_map);
   bool has_frontier() const { return !places_.empty() && places_.front().kind == PlaceKind::kFrontier; }
+  void find_shut(const std::vector<Frontier>& frontiers, const RouteLengths& lengths);
   void judge(Time now);
 
   AutopilotConfig config_;
@@ -63,8 +62,7 @@ class Explorer {
   std::optional<Time> aim_seen_since_;  ///< what was to be seen there is no frontier any more
   std::vector<Place> places_;
   std::optional<Time> chosen_at_;
-  std::deque<Vector2> once_reachable_;  ///< frontiers that there was a way to, in the map
-  std::vector<Place> shut_;             ///< to these there is none any more: where to wait for it
+  std::vector<Place> shut_;  ///< there was a way to these and there is none any more: where to wait for it
   std::optional<Time> seems_over_since_, judged_at_;
   Duration hope_left_{};  ///< that a door opens
   bool over_ = false;

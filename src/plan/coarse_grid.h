@@ -18,6 +18,7 @@ inline constexpr int kCoarseOfChunk = kChunkSide / kCoarseSide;  ///< coarse cel
 struct CoarseCell {
   std::uint8_t clearance = 0;  ///< steps, of the roomiest cell
   std::uint8_t about = 0;      ///< the bits below
+  std::uint8_t once = 0;       ///< the most clearance that it ever had while it was known
 
   static constexpr std::uint8_t kKnown = 16;   ///< at least half of the cells are
   static constexpr std::uint8_t kByPost = 32;  ///< beside a post that may have a wide foot

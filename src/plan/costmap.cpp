@@ -191,8 +191,10 @@ void Costmap::refresh_coarse(ChunkIndex index) {
         }
       }
       const bool is_known = count >= kCoarseSide * kCoarseSide / 2;
-      coarse_[row + x / kCoarseSide] = {
-          most, static_cast<std::uint8_t>(best | (is_known ? CoarseCell::kKnown : 0))};
+      CoarseCell& cell = coarse_[row + x / kCoarseSide];
+      cell.clearance = most;
+      cell.about = static_cast<std::uint8_t>(best | (is_known ? CoarseCell::kKnown : 0));
+      if (is_known) cell.once = std::max(cell.once, most);
     }
   }
 }

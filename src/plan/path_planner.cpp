@@ -8,12 +8,15 @@
 #include "grid/ray_walk.h"
 #include "plan/route_pull.h"
 #include "plan/way_out.h"
+#include "plan/way_there_was.h"
 
 namespace dynslam {
 namespace {
 
 /// Room of so few coarse cells is not somewhere to be: a square metre, as behind a door that stands open.
 constexpr int kPocket = 150;
+/// So far before a door that is shut its leaf can open.
+constexpr double kBefore_m = 0.6;
 
 Plan no_route(std::string reason) {
   Plan plan;
@@ -81,6 +84,8 @@ Plan PathPlanner::plan(const Costmap& costmap, const PlanRequest& request) {
   if (!found.last) {
     plan.nearest_map = best_point(costmap, found.end);
     plan.is_cut_off = !found.gave_up && !trouble_at(costmap, cells, goal);
+    const auto before = plan.is_cut_off ? before_what_shuts(costmap, goal) : std::nullopt;
+    if (before) plan.nearest_map = before;
     return plan;
   }
   plan.outcome = found.exactly ? PlanOutcome::kFound : PlanOutcome::kNearby;
@@ -156,6 +161,21 @@ PathPlanner::Found PathPlanner::search(const Costmap& costmap, const Ground& cel
   return found;
 }
 
+/// From there it is seen whether the way is free again, and it is as far from it as the last search got.
+std::optional<Vector2> PathPlanner::before_what_shuts(const Costmap& costmap, const Vector2& goal) const {
+  const std::size_t aim = costmap.coarse().index_of(cell_at(goal, costmap.cell_size_m()));
+  const auto edge = first_reached_by_way_there_was(costmap.coarse(), {&aim, 1},
+                                                   cells(Unknown::kForbidden).least_clearance(),
+                                                   [&](std::size_t index) { return search_.reached(index); });
+  if (!edge) return std::nullopt;
+  const auto from_edge_m = [&](std::size_t at) {
+    return (best_point(costmap, at) - best_point(costmap, *edge)).norm();
+  };
+  std::size_t at = *edge;
+  while (search_.before(at) != at && from_edge_m(at) < kBefore_m) at = search_.before(at);
+  return best_point(costmap, at);
+}
+
 /// The roomiest cells along the way that was found.
 std::vector<Vector2> PathPlanner::centres_to(const Costmap& costmap, std::size_t end) const {
   std::vector<Vector2> centres{best_point(costmap, end)};
@@ -200,9 +220,9 @@ std::optional<std::size_t> PathPlanner::first_blocked_leg(const Costmap& costmap
 }
 
 const RouteLengths& PathPlanner::reach(const Costmap& costmap, const Vector2& start_map, double most_m) {
-  lengths_.reset(costmap);
-  if (!start_map.allFinite() || !costmap.contains(start_map)) return lengths_;
   const Ground cells = this->cells(Unknown::kForbidden), legs = this->legs(Unknown::kForbidden);
+  lengths_.reset(costmap, cells.least_clearance());
+  if (!start_map.allFinite() || !costmap.contains(start_map)) return lengths_;
   const auto out = into_the_open(costmap, cells, legs, start_map, std::nullopt);
   if (!out) return lengths_;
   const double coarse_m = kCoarseSide * costmap.cell_size_m(), first_m = length_of(*out);

@@ -32,9 +32,11 @@ struct Plan {
   PlanOutcome outcome = PlanOutcome::kNoRoute;
   std::vector<Vector2> route_map;  ///< from the start to the end, straight legs between
   double length_m = 0.0;
-  std::string reason;                  ///< why not to the goal, for people; empty when kFound
-  bool is_cut_off = false;             ///< kNoRoute though the goal has room
-  std::optional<Vector2> nearest_map;  ///< of kNoRoute: the reachable place nearest to the goal, if any
+  std::string reason;       ///< why not to the goal, for people; empty when kFound
+  bool is_cut_off = false;  ///< kNoRoute though the goal has room
+  /// Of kNoRoute: the reachable place before what shuts the way that there was once; where there was none,
+  /// the one nearest to the goal, if any.
+  std::optional<Vector2> nearest_map;
 };
 
 /// Finds ways for a round robot. The way is searched on the coarse cells with the full margin, then pulled
@@ -76,6 +78,7 @@ class PathPlanner {
                                                     const std::optional<Vector2>& goal);
   Found search(const Costmap& costmap, const Ground& cells, const Ground& legs, const Vector2& from,
                const Vector2& goal);
+  std::optional<Vector2> before_what_shuts(const Costmap& costmap, const Vector2& goal) const;
   std::vector<Vector2> centres_to(const Costmap& costmap, std::size_t end) const;
 
   PlannerConfig config_;

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plan/way_there_was.h"
+
 namespace dynslam {
 
-void RouteLengths::reset(const Costmap& costmap) {
+void RouteLengths::reset(const Costmap& costmap, std::uint8_t least_clearance) {
+  least_clearance_ = least_clearance;
   cell_size_m_ = costmap.cell_size_m();
   grid_ = costmap.coarse();
   length_m_.assign(grid_.size(), kUnreached);
@@ -27,30 +30,46 @@ std::optional<Vector2> RouteLengths::nearest_reached(const Vector2& point_map, d
 }
 
 std::optional<Vector2> RouteLengths::nearest(const Vector2& point_map, double within_m, bool by_posts) const {
-  if (!point_map.allFinite() || !(within_m >= 0) || grid_.box().empty()) return std::nullopt;
+  std::optional<Vector2> nearest;
+  double least_m = within_m;
+  for_each_within(point_map, within_m, [&](std::size_t index) {
+    if (length_m_[index] == kUnreached || (!by_posts && grid_[index].by_post())) return;
+    const Vector2 centre = cell_centre(grid_.best_cell(index), cell_size_m_);
+    const double distance_m = (centre - point_map).norm();
+    if (distance_m > least_m || (nearest && distance_m == least_m)) return;
+    nearest = centre;
+    least_m = distance_m;
+  });
+  return nearest;
+}
+
+std::optional<Vector2> RouteLengths::before_what_shuts(const Vector2& point_map, double within_m) const {
+  std::vector<std::size_t> around;
+  for_each_within(point_map, within_m, [&](std::size_t index) {
+    if (length_m_[index] == kUnreached) around.push_back(index);
+  });
+  const auto edge = first_reached_by_way_there_was(
+      grid_, around, least_clearance_, [&](std::size_t index) { return length_m_[index] < kUnreached; });
+  return edge ? std::optional<Vector2>(cell_centre(grid_.best_cell(*edge), cell_size_m_)) : std::nullopt;
+}
+
+/// The coarse cells of a square.
+template <class Visit>
+void RouteLengths::for_each_within(const Vector2& point_map, double within_m, Visit&& visit) const {
+  if (!point_map.allFinite() || !(within_m >= 0) || grid_.box().empty()) return;
   const CellIndex low = first_cell(grid_.box().min);
   const CellIndex high = first_cell({grid_.box().max.x + 1, grid_.box().max.y + 1});
   const auto clamped = [&](double m, std::int32_t from, std::int32_t to) {
     return static_cast<std::int32_t>(std::clamp(std::floor(m / cell_size_m_), double(from), to - 1.0));
   };
-  std::optional<Vector2> nearest;
-  double least_m = within_m;
   const int last_y = clamped(point_map.y() + within_m, low.y, high.y);
   const int last_x = clamped(point_map.x() + within_m, low.x, high.x);
   for (int y = clamped(point_map.y() - within_m, low.y, high.y) & ~(kCoarseSide - 1); y <= last_y;
        y += kCoarseSide) {
     for (int x = clamped(point_map.x() - within_m, low.x, high.x) & ~(kCoarseSide - 1); x <= last_x;
-         x += kCoarseSide) {
-      const std::size_t index = grid_.index_of({x, y});
-      if (length_m_[index] == kUnreached || (!by_posts && grid_[index].by_post())) continue;
-      const Vector2 centre = cell_centre(grid_.best_cell(index), cell_size_m_);
-      const double distance_m = (centre - point_map).norm();
-      if (distance_m > least_m || (nearest && distance_m == least_m)) continue;
-      nearest = centre;
-      least_m = distance_m;
-    }
+         x += kCoarseSide)
+      visit(grid_.index_of({x, y}));
   }
-  return nearest;
 }
 
 }  // namespace dynslam

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -18,14 +19,21 @@ class RouteLengths {
   /// The reached place nearest to a point; always one where the robot has room, and beside a lone post only
   /// where there is no other.
   std::optional<Vector2> nearest_reached(const Vector2& point_map, double within_m) const;
+  /// From what is not reached so near to a point back along ground that had room once: the first reached
+  /// place. It is before what shuts the way, as a door does; nothing where there never was one.
+  std::optional<Vector2> before_what_shuts(const Vector2& point_map, double within_m) const;
 
  private:
   friend class PathPlanner;
   static constexpr float kUnreached = std::numeric_limits<float>::infinity();
-  void reset(const Costmap& costmap);
+  void reset(const Costmap& costmap, std::uint8_t least_clearance);
   std::optional<Vector2> nearest(const Vector2& point_map, double within_m, bool by_posts) const;
 
+  template <class Visit>
+  void for_each_within(const Vector2& point_map, double within_m, Visit&& visit) const;
+
   double cell_size_m_ = 1.0;
+  std::uint8_t least_clearance_ = 0;
   CoarseGrid grid_;
   std::vector<float> length_m_;
 };

@@ -156,7 +156,7 @@ TEST(Autopilot, WaitsForADoorThatClosesInMidDriveAndSaysSoWhenItStaysShut) {
   AutopilotStatus status = pilot.turn();
   for (int i = 0; i < 100 && pilot.autopilot.task(); ++i) status = pilot.turn();
   EXPECT_FALSE(pilot.autopilot.task()) << "it stands";
-  EXPECT_GT(pilot.at.x, pilot.building.kLetter_m * 11) << "before the door, to look at it";
+  EXPECT_GT(pilot.at.x, pilot.building.kLetter_m * 6) << "before the door, which it sees";
   status = pilot.turn();
   EXPECT_EQ(status.phase, AutopilotPhase::kActive);
   EXPECT_THAT(status.reason, Not(IsEmpty()));

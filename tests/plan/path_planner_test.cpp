@@ -71,6 +71,23 @@ TEST(PathPlanner, CrossesADoorInItsMiddle) {
   }
 }
 
+TEST(PathPlanner, ShowsThePlaceBeforeTheDoorThatIsShutNow) {
+  DrawnFloor floor = two_rooms(0.2, 0.9);
+  Costmap map = floor.costmap();
+  const Vector2 start{0.6, 3.4}, goal{3.7, 3.6};
+  EXPECT_EQ(plan_on(map, start, goal).outcome, PlanOutcome::kFound);
+  floor.occupy(3.0, 0.2, 3.1, 0.9);
+  map.update(floor.grid.snapshot());
+  const Plan plan = plan_on(map, start, goal);
+  EXPECT_EQ(plan.outcome, PlanOutcome::kNoRoute);
+  ASSERT_TRUE(plan.nearest_map);
+  EXPECT_NEAR(plan.nearest_map->x(), 2.4, 0.3) << "not as near to the goal as can be, beyond the wall";
+  EXPECT_LT(plan.nearest_map->y(), 1.2);
+  const Plan never = plan_on(two_rooms(9, 9).costmap(), start, goal);
+  ASSERT_TRUE(never.nearest_map);
+  EXPECT_GT(never.nearest_map->y(), 3.0) << "there never was a way";
+}
+
 TEST(PathPlanner, PrefersTheWayWithRoom) {
   const std::vector<std::string> rows{"##############################",  //
                                       "#............................#",  //

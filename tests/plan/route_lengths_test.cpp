@@ -79,6 +79,25 @@ TEST(RouteLengths, NamesTheReachedPlaceNearestToAPoint) {
   EXPECT_TRUE(lengths.nearest_reached({100, 100}, std::numeric_limits<double>::infinity()));
 }
 
+TEST(RouteLengths, NamesThePlaceBeforeWhatShutsAWayThatThereWas) {
+  DrawnFloor floor = floor_of(kRooms);
+  Costmap map = floor.costmap();
+  PathPlanner planner({}, kRadius_m);
+  const Vector2 start(0.5, 1.0), beyond(2.3, 1.5), never(2.3, 0.4);
+  const RouteLengths open = planner.reach(map, start);
+  EXPECT_FALSE(open.before_what_shuts(beyond, 0.2)) << "it is reached";
+  floor.occupy(1.4, 0.7, 1.5, 1.3);
+  map.update(floor.grid.snapshot());
+  const RouteLengths shut = planner.reach(map, start);
+  ASSERT_FALSE(shut.length_m(beyond));
+  const auto before = shut.before_what_shuts(beyond, 0.2);
+  ASSERT_TRUE(before);
+  EXPECT_NEAR(before->x(), 1.2, 0.1);
+  EXPECT_NEAR(before->y(), 1.0, 0.15);
+  EXPECT_FALSE(shut.before_what_shuts(never, 0.2)) << "there never was a way";
+  EXPECT_FALSE(shut.before_what_shuts({0.7, 1.1}, 0.2)) << "it is reached";
+}
+
 TEST(RouteLengths, NonsenseReachesNothing) {
   DrawnFloor floor = floor_of(kRooms);
   const Costmap map = floor.costmap();
@@ -93,6 +112,8 @@ TEST(RouteLengths, NonsenseReachesNothing) {
     EXPECT_FALSE(lengths.length_m(point));
   EXPECT_FALSE(lengths.nearest_reached({nan, 0}, 10));
   EXPECT_FALSE(lengths.nearest_reached({1, 1}, nan));
+  EXPECT_FALSE(lengths.before_what_shuts({nan, 0}, 10));
+  EXPECT_FALSE(RouteLengths().before_what_shuts({0, 0}, 1));
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "plan/way_there_was.h"
+
+#include <vector>
+
+namespace dynslam {
+
+std::optional<std::size_t> first_reached_by_way_there_was(
+    const CoarseGrid& grid, std::span<const std::size_t> from, std::uint8_t least_clearance,
+    const std::function<bool(std::size_t)>& is_reached) {
+  std::vector<bool> seen(grid.size());
+  std::vector<std::size_t> wave;
+  const auto offer = [&](std::size_t index) {
+    if (seen[index] || grid[index].once < least_clearance) return;
+    seen[index] = true;
+    wave.push_back(index);
+  };
+  for (const std::size_t index : from) offer(index);
+  const auto stride = static_cast<std::size_t>(grid.stride());
+  for (std::size_t i = 0; i < wave.size(); ++i) {
+    const std::size_t at = wave[i];
+    if (is_reached(at)) return at;
+    for (const std::size_t next : {at - 1, at + 1, at - stride, at + stride}) offer(next);
+  }
+  return std::nullopt;
+}
+
+}  // namespace dynslam
