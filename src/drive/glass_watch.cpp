@@ -24,12 +24,12 @@ constexpr double kBehind_m = 0.25;
 // When patches are of one thing,
 constexpr double kSameLine_m = 0.05, kNext_m = 0.12, kKeeps_m = 0.5;
 // and wander: so far the robot has moved along them, and so much they may lag behind.
-constexpr double kMoved_m = 0.15, kLag = 0.3, kLag_m = 0.03;
+constexpr double kMoved_m = 0.15, kSurelyMoved_m = 0.3, kLag = 0.3, kLag_m = 0.03;
 constexpr Duration kSureAfter = std::chrono::milliseconds(600), kLikelyAfter = std::chrono::milliseconds(300);
 constexpr Duration kForgets = std::chrono::milliseconds(1500), kForgetsHidden = std::chrono::seconds(30);
 /// So long it is where it was, as far as the robot knows how it moved.
 constexpr Duration kJustHidden = std::chrono::seconds(1);
-constexpr double kHiddenWithin_m = 0.08;  ///< and the blind zone
+constexpr double kHiddenWithin_m = 0.08, kVanishesWithin_m = 0.03;  ///< and the blind zone
 // What is added of a pane: about the robot, and beyond what was seen of it.
 constexpr double kNear_m = 1.0, kAbout_m = 0.35, kBeyond_m = 0.3, kStep_m = 0.02;
 /// The way out from where it cannot be seen is away from it, not along it.
@@ -113,6 +113,7 @@ void GlassWatch::follow(const Segment& patch, Time now) {
         *both, {std::max(0.0, now_at.low - kKeeps_m), std::min(both->length_m(), now_at.high + kKeeps_m)});
     t.patch = patch;
     t.seen = now;
+    t.away_m = off_line_m(patch, lidar_);
     if (!wanders_as_glass(t)) {
       t.pane_since.reset();
     } else if (!t.pane_since) {
@@ -121,13 +122,17 @@ void GlassWatch::follow(const Segment& patch, Time now) {
     return;
   }
   if (tracks_.size() >= kMostTracks) return;
-  tracks_.push_back({patch, patch, now, middle_of(patch), lidar_, {}});
+  tracks_.push_back({patch, patch, now, off_line_m(patch, lidar_), middle_of(patch), lidar_, {}});
+}
+
+double GlassWatch::moved_along_m(const Track& t) const {
+  return (t.all.to - t.all.from).dot(lidar_ - t.lidar_first) / t.all.length_m();
 }
 
 bool GlassWatch::wanders_as_glass(const Track& t) const {
   const Vector2 along = (t.all.to - t.all.from) / t.all.length_m();
   const double wandered_m = along.dot(middle_of(t.patch) - t.first);
-  const double moved_m = along.dot(lidar_ - t.lidar_first);
+  const double moved_m = moved_along_m(t);
   const double lag_m = kLag * std::abs(moved_m) + kLag_m;
   if (t.pane_since) return std::abs(wandered_m - moved_m) < 2.0 * lag_m;
   return std::abs(moved_m) > kMoved_m && std::abs(wandered_m - moved_m) < lag_m;
@@ -139,8 +144,13 @@ bool GlassWatch::was_glass_for(const Track& t, Duration least) {
 }
 
 /// It came too near to be seen, and may go on for as long as it does.
+bool GlassWatch::came_too_near(const Track& t) const {
+  return t.away_m < blind_m_ + kVanishesWithin_m && was_glass_for(t, kLikelyAfter);
+}
+
 bool GlassWatch::is_hidden(const Track& t) const {
-  return off_line_m(t.patch, lidar_) < blind_m_ + kHiddenWithin_m && was_glass_for(t, kLikelyAfter);
+  return off_line_m(t.patch, lidar_) < blind_m_ + kHiddenWithin_m &&
+         (came_too_near(t) || was_glass_for(t, kSureAfter));
 }
 
 void GlassWatch::add_to(std::vector<ObstaclePoint>& points, const BodyConfig& body) const {
@@ -148,7 +158,7 @@ void GlassWatch::add_to(std::vector<ObstaclePoint>& points, const BodyConfig& bo
     if (!t.pane_since || off_line_m(t.patch, lidar_) > kNear_m) continue;
     const double here = span_along(t.patch, {lidar_, lidar_}).low;
     const Span all = span_along(t.patch, t.all);
-    const double beyond_m = is_hidden(t) ? kBeyondHidden_m : kBeyond_m;
+    const double beyond_m = came_too_near(t) ? kBeyondHidden_m : kBeyond_m;
     const double low = std::max(here - kAbout_m, all.low - beyond_m);
     const double high = std::min(here + kAbout_m, all.high + beyond_m);
     const Vector2 foot = on_line(t.patch, {here, here}).from;
@@ -164,9 +174,9 @@ void GlassWatch::add_to(std::vector<ObstaclePoint>& points, const BodyConfig& bo
 std::vector<Segment> GlassWatch::panes() const {
   std::vector<Segment> panes;
   for (const Track& t : tracks_) {
-    if (t.seen == end_ && was_glass_for(t, kSureAfter)) {
+    if (t.seen == end_ && was_glass_for(t, kSureAfter) && std::abs(moved_along_m(t)) > kSurelyMoved_m) {
       panes.push_back(t.all);
-    } else if (end_ - t.seen < kJustHidden && is_hidden(t)) {
+    } else if (end_ - t.seen < kJustHidden && came_too_near(t)) {
       panes.push_back(on_line(t.all, {-kBeyondHidden_m, t.all.length_m() + kBeyondHidden_m}));
     }
   }

@@ -35,12 +35,15 @@ class GlassWatch {
   struct Track {
     Segment all, patch;
     Time seen;
+    double away_m;               ///< from the lidar, then
     Vector2 first, lidar_first;  ///< the middle of the first patch, and where the lidar was then
     std::optional<Time> pane_since;
   };
   void follow(const Segment& patch, Time now);
+  double moved_along_m(const Track& track) const;
   bool wanders_as_glass(const Track& track) const;
   static bool was_glass_for(const Track& track, Duration least);
+  bool came_too_near(const Track& track) const;
   bool is_hidden(const Track& track) const;
 
   double blind_m_;

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "grid/ray_walk.h"
+#include "plan/ground_there_was.h"
 #include "plan/route_pull.h"
 #include "plan/way_out.h"
-#include "plan/way_there_was.h"
 
 namespace dynslam {
 namespace {
@@ -164,9 +164,10 @@ PathPlanner::Found PathPlanner::search(const Costmap& costmap, const Ground& cel
 /// From there it is seen whether the way is free again, and it is as far from it as the last search got.
 std::optional<Vector2> PathPlanner::before_what_shuts(const Costmap& costmap, const Vector2& goal) const {
   const std::size_t aim = costmap.coarse().index_of(cell_at(goal, costmap.cell_size_m()));
-  const auto edge = first_reached_by_way_there_was(costmap.coarse(), {&aim, 1},
-                                                   cells(Unknown::kForbidden).least_clearance(),
-                                                   [&](std::size_t index) { return search_.reached(index); });
+  const auto edge =
+      ground_there_was(costmap.coarse(), {&aim, 1}, cells(Unknown::kForbidden).least_clearance(),
+                       [&](std::size_t index) { return search_.reached(index); })
+          .reached;
   if (!edge) return std::nullopt;
   const auto from_edge_m = [&](std::size_t at) {
     return (best_point(costmap, at) - best_point(costmap, *edge)).norm();

@@ -4,9 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/way_there_was.h"
+#include "plan/ground_there_was.h"
 
 namespace dynslam {
+namespace {
+
+/// So many coarse cells are somewhere to be: a quarter of a square metre.
+constexpr std::size_t kRoom = 40;
+/// As far as one sees of a room through a gap.
+constexpr double kThroughGap_m = 3.0;
+
+}  // namespace
 
 void RouteLengths::reset(const Costmap& costmap, std::uint8_t least_clearance) {
   least_clearance_ = least_clearance;
@@ -48,9 +56,10 @@ std::optional<Vector2> RouteLengths::before_what_shuts(const Vector2& point_map,
   for_each_within(point_map, within_m, [&](std::size_t index) {
     if (length_m_[index] == kUnreached) around.push_back(index);
   });
-  const auto edge = first_reached_by_way_there_was(
+  const GroundThereWas ground = ground_there_was(
       grid_, around, least_clearance_, [&](std::size_t index) { return length_m_[index] < kUnreached; });
-  return edge ? std::optional<Vector2>(cell_centre(grid_.best_cell(*edge), cell_size_m_)) : std::nullopt;
+  if (ground.reached) return cell_centre(grid_.best_cell(*ground.reached), cell_size_m_);
+  return ground.cells < kRoom ? std::nullopt : nearest_reached(point_map, kThroughGap_m);
 }
 
 /// The coarse cells of a square.

@@ -20,7 +20,8 @@ class RouteLengths {
   /// where there is no other.
   std::optional<Vector2> nearest_reached(const Vector2& point_map, double within_m) const;
   /// From what is not reached so near to a point back along ground that had room once: the first reached
-  /// place. It is before what shuts the way, as a door does; nothing where there never was one.
+  /// place. It is before what shuts the way, as a door does. Where there never was a way, but ground to stand
+  /// on, as of a room that was seen through a door that is ajar: the reached place nearest to the point.
   std::optional<Vector2> before_what_shuts(const Vector2& point_map, double within_m) const;
 
  private:

@@ -83,7 +83,7 @@ TEST(RouteLengths, NamesThePlaceBeforeWhatShutsAWayThatThereWas) {
   DrawnFloor floor = floor_of(kRooms);
   Costmap map = floor.costmap();
   PathPlanner planner({}, kRadius_m);
-  const Vector2 start(0.5, 1.0), beyond(2.3, 1.5), never(2.3, 0.4);
+  const Vector2 start(0.5, 1.0), beyond(2.3, 1.5);
   const RouteLengths open = planner.reach(map, start);
   EXPECT_FALSE(open.before_what_shuts(beyond, 0.2)) << "it is reached";
   floor.occupy(1.4, 0.7, 1.5, 1.3);
@@ -94,8 +94,24 @@ TEST(RouteLengths, NamesThePlaceBeforeWhatShutsAWayThatThereWas) {
   ASSERT_TRUE(before);
   EXPECT_NEAR(before->x(), 1.2, 0.1);
   EXPECT_NEAR(before->y(), 1.0, 0.15);
-  EXPECT_FALSE(shut.before_what_shuts(never, 0.2)) << "there never was a way";
   EXPECT_FALSE(shut.before_what_shuts({0.7, 1.1}, 0.2)) << "it is reached";
+}
+
+TEST(RouteLengths, NamesThePlaceNearestToARoomThatIsSeenThroughAGap) {
+  for (const double deep_m : {2.0, 0.45}) {
+    DrawnFloor floor;
+    floor.occupy(0, -0.1, 5, 3);
+    floor.clear(0.1, 0, 2, 2.9);
+    floor.clear(2.1, 0, 2.1 + deep_m, 2.9);
+    floor.clear(2, 1.4, 2.1, 1.7);
+    const auto before = PathPlanner({}, kRadius_m)
+                            .reach(floor.costmap(), {1, 1})
+                            .before_what_shuts({2.1 + 0.5 * deep_m, 1.5}, 0.2);
+    EXPECT_EQ(before.has_value(), deep_m > 1.0) << "a place to be, or not";
+    if (before) {
+      EXPECT_LT((*before - Vector2(1.75, 1.5)).norm(), 0.2);
+    }
+  }
 }
 
 TEST(RouteLengths, NonsenseReachesNothing) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "plan/way_there_was.h"
+#include "plan/ground_there_was.h"
 
 #include <vector>
 
 namespace dynslam {
 
-std::optional<std::size_t> first_reached_by_way_there_was(
-    const CoarseGrid& grid, std::span<const std::size_t> from, std::uint8_t least_clearance,
-    const std::function<bool(std::size_t)>& is_reached) {
+GroundThereWas ground_there_was(const CoarseGrid& grid, std::span<const std::size_t> from,
+                                std::uint8_t least_clearance,
+                                const std::function<bool(std::size_t)>& is_reached) {
   std::vector<bool> seen(grid.size());
   std::vector<std::size_t> wave;
   const auto offer = [&](std::size_t index) {
@@ -19,10 +19,10 @@ std::optional<std::size_t> first_reached_by_way_there_was(
   const auto stride = static_cast<std::size_t>(grid.stride());
   for (std::size_t i = 0; i < wave.size(); ++i) {
     const std::size_t at = wave[i];
-    if (is_reached(at)) return at;
+    if (is_reached(at)) return {at, i + 1};
     for (const std::size_t next : {at - 1, at + 1, at - stride, at + stride}) offer(next);
   }
-  return std::nullopt;
+  return {std::nullopt, wave.size()};
 }
 
 }  // namespace dynslam
