@@ -19,7 +19,7 @@ namespace dynslam {
 /// is around each cell. No-go areas count as occupied. Work goes with what became occupied or free, not with
 /// the size of the map: of the other chunks only the versions are compared.
 ///
-/// Memory: 3 bits a cell and 2 bytes for 4 x 4 cells inside the map's box; a byte a cell in the chunks that
+/// Memory: 3 bits a cell and 3 bytes for 4 x 4 cells inside the map's box; a byte a cell in the chunks that
 /// have something occupied within reach. Of a map whose box would be more than kMostChunks large, what lies
 /// outside of the box that there was before is left out.
 /// Threads: one at a time.

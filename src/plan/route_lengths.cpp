@@ -9,8 +9,8 @@
 namespace dynslam {
 namespace {
 
-/// So many coarse cells are somewhere to be: a quarter of a square metre.
-constexpr std::size_t kRoom = 40;
+/// So much ground is somewhere to be.
+constexpr double kRoom_m2 = 0.25;
 /// As far as one sees of a room through a gap.
 constexpr double kThroughGap_m = 3.0;
 
@@ -59,7 +59,9 @@ std::optional<Vector2> RouteLengths::before_what_shuts(const Vector2& point_map,
   const GroundThereWas ground = ground_there_was(
       grid_, around, least_clearance_, [&](std::size_t index) { return length_m_[index] < kUnreached; });
   if (ground.reached) return cell_centre(grid_.best_cell(*ground.reached), cell_size_m_);
-  return ground.cells < kRoom ? std::nullopt : nearest_reached(point_map, kThroughGap_m);
+  const double coarse_m = kCoarseSide * cell_size_m_;
+  const bool is_room = static_cast<double>(ground.cells) * coarse_m * coarse_m >= kRoom_m2;
+  return is_room ? nearest_reached(point_map, kThroughGap_m) : std::nullopt;
 }
 
 /// The coarse cells of a square.
