@@ -96,6 +96,7 @@ std::vector<Exploration::Ranked> Exploration::frontiers_reached(Time now, std::s
     std::optional<Vector2> stand_map = reach.nearest(f.middle_map, config_.stand_within_m);
     const bool is_shut_off = !stand_map, is_small = is_nook(f);
     if (is_small && is_shut_off) continue;
+    if (stand_map && f.extent_m < kDoor_m && reach.is_risky(*stand_map)) continue;
     if (is_left_alone(now, f, is_shut_off)) continue;
     if (is_shut_off) ++left_out_.out_of_reach;
     if (is_shut_off && f.extent_m >= kDoor_m && !was_looked_at(f.middle_map)) {

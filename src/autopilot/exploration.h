@@ -45,6 +45,8 @@ struct Reachability {
   std::function<double()> looked_m = [] { return std::numeric_limits<double>::infinity(); };
   /// Looks for longer ones; false: that was everything.
   std::function<bool()> look_farther = [] { return false; };
+  /// Whether there may be something in the way there that is not seen.
+  std::function<bool(const Vector2& point_map)> is_risky = [](const Vector2&) { return false; };
 };
 
 /// What lies behind a narrower gap than a door is no room.

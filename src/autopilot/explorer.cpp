@@ -124,7 +124,9 @@ void Explorer::find_places(Time now, const Vector2& robot_map, const Costmap& co
                              return std::isinf(looked_m) ? lengths->before_what_shuts(point, kBeside_m)
                                                          : std::nullopt;
                            },
-                           [&] { return looked_m; }, look_farther};
+                           [&] { return looked_m; },
+                           look_farther,
+                           [&](const Vector2& point) { return lengths->is_by_post(point); }};
   std::vector<Frontier> frontiers = frontier_map_.frontiers(last_look_);
   for (Frontier& f : frontiers) f.beyond_m2 = frontier_map_.beyond_m2(f);
   places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach, seemed_over_);

@@ -32,6 +32,10 @@ std::optional<double> RouteLengths::length_m(const Vector2& point_map) const {
   return length < kUnreached ? std::optional<double>(length) : std::nullopt;
 }
 
+bool RouteLengths::is_by_post(const Vector2& point_map) const {
+  return length_m(point_map) && grid_[grid_.index_of(cell_at(point_map, cell_size_m_))].by_post();
+}
+
 std::optional<Vector2> RouteLengths::nearest_reached(const Vector2& point_map, double within_m) const {
   const auto roomy = nearest(point_map, within_m, false);
   return roomy.has_value() ? roomy : nearest(point_map, within_m, true);

@@ -171,6 +171,21 @@ TEST(Exploration, ANookIsNotWorthALongWay) {
   EXPECT_EQ(places().size(), 1U) << "nor is a last look";
 }
 
+TEST(Exploration, WhatIsNarrowIsNotWorthTheRiskOfWhatIsNotSeen) {
+  const Flat flat(kTwoDoors);
+  std::vector<Frontier> frontiers = flat.frontiers;
+  Reachability reach = flat.reach();
+  frontiers[0].extent_m = 0.9 * kDoor_m;
+  frontiers[1].extent_m = 1.1 * kDoor_m;
+  const auto places = [&] {
+    return Exploration().places(Time(), flat.robot, frontiers, VisitMap(), flat.map, reach);
+  };
+  EXPECT_EQ(places().size(), 2U);
+  reach.is_risky = [](const Vector2&) { return true; };
+  ASSERT_EQ(places().size(), 1U);
+  EXPECT_EQ(places()[0].gain, 1.1 * kDoor_m);
+}
+
 TEST(Exploration, NobodyWaitsForADoorToANook) {
   const Flat flat(kTwoDoors);
   std::vector<Frontier> frontiers = flat.frontiers;

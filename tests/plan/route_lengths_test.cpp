@@ -114,6 +114,18 @@ TEST(RouteLengths, NamesThePlaceNearestToARoomThatIsSeenThroughAGap) {
   }
 }
 
+TEST(RouteLengths, KnowWhereALonePostIsNear) {
+  DrawnFloor floor;
+  floor.clear(0, 0, 4, 4);
+  floor.occupy(2, 2, 2.06, 2.06);
+  const Costmap map = floor.costmap();
+  PathPlanner planner({}, kRadius_m);
+  const RouteLengths& lengths = planner.reach(map, {0.5, 0.5});
+  EXPECT_TRUE(lengths.is_by_post({1.7, 2}));
+  EXPECT_FALSE(lengths.is_by_post({1.3, 2}));
+  EXPECT_FALSE(lengths.is_by_post({50, 2})) << "outside";
+}
+
 TEST(RouteLengths, NonsenseReachesNothing) {
   DrawnFloor floor = floor_of(kRooms);
   const Costmap map = floor.costmap();
