@@ -88,7 +88,9 @@ class Exploration {
   void vanished(Time now, const Place& place);
 
   /// Hardly anything is to be seen there.
-  bool is_nook(const Frontier& f) const { return f.is_short || f.beyond_m2 < config_.nook_m2; }
+  bool is_nook(const Frontier& f) const {
+    return f.is_short || f.extent_m < kDoor_m || f.beyond_m2 < config_.nook_m2;
+  }
 
   /// It was looked at from near, and stayed what it was.
   bool was_looked_at(const Vector2& frontier_map) const;

@@ -126,7 +126,7 @@ void Explorer::find_places(Time now, const Vector2& robot_map, const Costmap& co
                            },
                            [&] { return looked_m; },
                            look_farther,
-                           [&](const Vector2& point) { return lengths->is_by_post(point); }};
+                           [&](const Vector2& point) { return lengths->leads_by_post(point); }};
   std::vector<Frontier> frontiers = frontier_map_.frontiers(last_look_);
   for (Frontier& f : frontiers) f.beyond_m2 = frontier_map_.beyond_m2(f);
   places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach, seemed_over_);

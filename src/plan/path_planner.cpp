@@ -236,6 +236,9 @@ const RouteLengths& PathPlanner::reach(const Costmap& costmap, const Vector2& st
     const double length_m = before == i ? first_m : lengths[before] + coarse_m * search_.last_step(i);
     if (length_m > most_m) continue;
     lengths[i] = static_cast<float>(length_m);
+    // Where it stands already it leaves as it came.
+    lengths_.leads_by_post_[i] = lengths_.leads_by_post_[before] ||
+                                 (costmap.coarse()[i].by_post() && !costmap.coarse()[before].by_post());
     if (++expansions > config_.most_expansions) break;
     search_.expand(*settled);
   }

@@ -43,8 +43,8 @@ struct Plan {
 /// taut in full resolution, where the pruning margin is enough. A route that starts where the robot has too
 /// little room begins with the way out of there. Work is bounded by PlannerConfig::most_expansions.
 ///
-/// Keeps its memory from one call to the next: 8 bytes for 4 x 4 cells of the map's box, and 7 more for
-/// reach(). Threads: one at a time.
+/// Keeps its memory from one call to the next: 8 bytes for 4 x 4 cells of the map's box, and 7 and a bit more
+/// for reach(). Threads: one at a time.
 class PathPlanner {
  public:
   PathPlanner(const PlannerConfig& config, double robot_radius_m)

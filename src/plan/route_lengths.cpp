@@ -21,6 +21,7 @@ void RouteLengths::reset(const Costmap& costmap, std::uint8_t least_clearance) {
   cell_size_m_ = costmap.cell_size_m();
   grid_ = costmap.coarse();
   length_m_.assign(grid_.size(), kUnreached);
+  leads_by_post_.assign(grid_.size(), false);
 }
 
 std::optional<double> RouteLengths::length_m(const Vector2& point_map) const {
@@ -32,8 +33,8 @@ std::optional<double> RouteLengths::length_m(const Vector2& point_map) const {
   return length < kUnreached ? std::optional<double>(length) : std::nullopt;
 }
 
-bool RouteLengths::is_by_post(const Vector2& point_map) const {
-  return length_m(point_map) && grid_[grid_.index_of(cell_at(point_map, cell_size_m_))].by_post();
+bool RouteLengths::leads_by_post(const Vector2& point_map) const {
+  return length_m(point_map) && leads_by_post_[grid_.index_of(cell_at(point_map, cell_size_m_))];
 }
 
 std::optional<Vector2> RouteLengths::nearest_reached(const Vector2& point_map, double within_m) const {

@@ -19,8 +19,8 @@ class RouteLengths {
   /// The reached place nearest to a point; always one where the robot has room, and beside a lone post only
   /// where there is no other.
   std::optional<Vector2> nearest_reached(const Vector2& point_map, double within_m) const;
-  /// Whether a lone post is near, which may have a wide foot below the lidar.
-  bool is_by_post(const Vector2& point_map) const;
+  /// Whether the way there comes by a lone post, which may have a wide foot below the lidar.
+  bool leads_by_post(const Vector2& point_map) const;
   /// From what is not reached so near to a point back along ground that had room once: the first reached
   /// place. It is before what shuts the way, as a door does. Where there never was a way, but ground to stand
   /// on, as of a room that was seen through a door that is ajar: the reached place nearest to the point.
@@ -39,6 +39,7 @@ class RouteLengths {
   std::uint8_t least_clearance_ = 0;
   CoarseGrid grid_;
   std::vector<float> length_m_;
+  std::vector<bool> leads_by_post_;
 };
 
 }  // namespace dynslam

@@ -114,16 +114,21 @@ TEST(RouteLengths, NamesThePlaceNearestToARoomThatIsSeenThroughAGap) {
   }
 }
 
-TEST(RouteLengths, KnowWhereALonePostIsNear) {
+TEST(RouteLengths, KnowWhereTheWayComesByALonePost) {
   DrawnFloor floor;
-  floor.clear(0, 0, 4, 4);
-  floor.occupy(2, 2, 2.06, 2.06);
+  floor.occupy(-0.1, -0.1, 4.1, 1.1);
+  floor.clear(0, 0, 4, 1);
+  floor.occupy(2, 0.5, 2.06, 0.56);
   const Costmap map = floor.costmap();
   PathPlanner planner({}, kRadius_m);
-  const RouteLengths& lengths = planner.reach(map, {0.5, 0.5});
-  EXPECT_TRUE(lengths.is_by_post({1.7, 2}));
-  EXPECT_FALSE(lengths.is_by_post({1.3, 2}));
-  EXPECT_FALSE(lengths.is_by_post({50, 2})) << "outside";
+  const RouteLengths from_afar = planner.reach(map, {0.5, 0.5});
+  ASSERT_TRUE(from_afar.length_m({3.5, 0.5}));
+  EXPECT_FALSE(from_afar.leads_by_post({1, 0.5}));
+  EXPECT_TRUE(from_afar.leads_by_post({1.7, 0.25})) << "to it";
+  EXPECT_TRUE(from_afar.leads_by_post({3.5, 0.5})) << "past it";
+  EXPECT_FALSE(from_afar.leads_by_post({50, 2})) << "outside";
+  const RouteLengths from_beside = planner.reach(map, {1.7, 0.25});
+  EXPECT_FALSE(from_beside.leads_by_post({0.5, 0.5})) << "away from it";
 }
 
 TEST(RouteLengths, NonsenseReachesNothing) {
