@@ -49,7 +49,9 @@ struct ExplorationConfig {
     visit(Field{"stand_within_m", "a frontier is seen from this far, where it cannot be approached more", 0.0,
                 5.0},
           self.stand_within_m);
-    visit(Field{"nook_m2", "where less than so much is left to be seen, it is a nook", 0.0, 100.0},
+    visit(Field{"nook_m2",
+                "where less than so much is left to be seen, or through less than 0.6 m, it is a nook", 0.0,
+                100.0},
           self.nook_m2);
     visit(Field{"nook_way_m", "and not worth a longer way than this, nor is a last look", 0.0, 1e6},
           self.nook_way_m);

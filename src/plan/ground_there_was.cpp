@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plan/ground_there_was.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace dynslam {
@@ -8,10 +9,12 @@ namespace dynslam {
 GroundThereWas ground_there_was(const CoarseGrid& grid, std::span<const std::size_t> from,
                                 std::uint8_t least_clearance,
                                 const std::function<bool(std::size_t)>& is_reached) {
+  const auto had_room = [&](std::size_t index) { return grid[index].once >= least_clearance; };
+  if (std::none_of(from.begin(), from.end(), had_room)) return {};
   std::vector<bool> seen(grid.size());
   std::vector<std::size_t> wave;
   const auto offer = [&](std::size_t index) {
-    if (seen[index] || grid[index].once < least_clearance) return;
+    if (seen[index] || !had_room(index)) return;
     seen[index] = true;
     wave.push_back(index);
   };
