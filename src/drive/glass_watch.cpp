@@ -25,8 +25,12 @@ constexpr double kBehind_m = 0.25;
 constexpr double kSameLine_m = 0.05, kNext_m = 0.12, kKeeps_m = 0.5;
 // and wander: so far the robot has moved along them, and so much they may lag behind.
 constexpr double kMoved_m = 0.15, kSurelyMoved_m = 0.3, kLag = 0.3, kLag_m = 0.03;
+/// What wandered so stays a pane while it lags behind by this much more, but surely is none.
+constexpr double kStays = 2.0;
 constexpr Duration kSureAfter = std::chrono::milliseconds(600), kLikelyAfter = std::chrono::milliseconds(300);
-constexpr Duration kForgets = std::chrono::milliseconds(1500), kForgetsHidden = std::chrono::seconds(30);
+constexpr Duration kForgets = std::chrono::milliseconds(1500);
+/// What was surely a pane, and what may have been somebody's leg.
+constexpr Duration kForgetsHidden = std::chrono::seconds(30), kForgetsDoubtful = std::chrono::seconds(8);
 /// So long it is where it was, as far as the robot knows how it moved.
 constexpr Duration kJustHidden = std::chrono::seconds(1);
 constexpr double kHiddenWithin_m = 0.08, kVanishesWithin_m = 0.03;  ///< and the blind zone
@@ -95,7 +99,7 @@ void GlassWatch::see(std::span<const ObstaclePoint> points, const Look& look) {
   std::erase_if(tracks_, [&](Track& t) {
     for (Vector2* p : {&t.all.from, &t.all.to, &t.patch.from, &t.patch.to, &t.first, &t.lidar_first})
       *p = now_T_before * *p;
-    return look.end - t.seen > (is_hidden(t) ? kForgetsHidden : kForgets);
+    return look.end - t.seen > kept_for(t);
   });
   for (const Points& thing : things_of(points, look.robot_T_lidar.inverse()))
     if (const auto patch = patch_of(thing, look.sight))
@@ -114,9 +118,9 @@ void GlassWatch::follow(const Segment& patch, Time now) {
     t.patch = patch;
     t.seen = now;
     t.away_m = off_line_m(patch, lidar_);
-    if (!wanders_as_glass(t)) {
+    if (t.pane_since && !wanders_as_glass(t, kStays)) {
       t.pane_since.reset();
-    } else if (!t.pane_since) {
+    } else if (!t.pane_since && std::abs(moved_along_m(t)) > kMoved_m && wanders_as_glass(t, 1.0)) {
       t.pane_since = now;
     }
     return;
@@ -129,13 +133,11 @@ double GlassWatch::moved_along_m(const Track& t) const {
   return (t.all.to - t.all.from).dot(lidar_ - t.lidar_first) / t.all.length_m();
 }
 
-bool GlassWatch::wanders_as_glass(const Track& t) const {
+bool GlassWatch::wanders_as_glass(const Track& t, double tolerance) const {
   const Vector2 along = (t.all.to - t.all.from) / t.all.length_m();
   const double wandered_m = along.dot(middle_of(t.patch) - t.first);
   const double moved_m = moved_along_m(t);
-  const double lag_m = kLag * std::abs(moved_m) + kLag_m;
-  if (t.pane_since) return std::abs(wandered_m - moved_m) < 2.0 * lag_m;
-  return std::abs(moved_m) > kMoved_m && std::abs(wandered_m - moved_m) < lag_m;
+  return std::abs(wandered_m - moved_m) < tolerance * (kLag * std::abs(moved_m) + kLag_m);
 }
 
 /// Somebody who walks beside the robot does not do so for long.
@@ -143,14 +145,21 @@ bool GlassWatch::was_glass_for(const Track& t, Duration least) {
   return t.pane_since && t.seen - *t.pane_since > least;
 }
 
-/// It came too near to be seen, and may go on for as long as it does.
-bool GlassWatch::came_too_near(const Track& t) const {
-  return t.away_m < blind_m_ + kVanishesWithin_m && was_glass_for(t, kLikelyAfter);
+bool GlassWatch::is_surely_glass(const Track& t) const {
+  return was_glass_for(t, kSureAfter) && std::abs(moved_along_m(t)) > kSurelyMoved_m &&
+         wanders_as_glass(t, 1.0);
 }
 
-bool GlassWatch::is_hidden(const Track& t) const {
-  return off_line_m(t.patch, lidar_) < blind_m_ + kHiddenWithin_m &&
-         (came_too_near(t) || was_glass_for(t, kSureAfter));
+/// It came too near to be seen, and may go on for as long as it does.
+bool GlassWatch::came_too_near(const Track& t) const {
+  return t.away_m < blind_m_ + kVanishesWithin_m && was_glass_for(t, kLikelyAfter) &&
+         wanders_as_glass(t, 1.0);
+}
+
+Duration GlassWatch::kept_for(const Track& t) const {
+  if (off_line_m(t.patch, lidar_) >= blind_m_ + kHiddenWithin_m) return kForgets;
+  if (is_surely_glass(t)) return kForgetsHidden;
+  return came_too_near(t) || was_glass_for(t, kSureAfter) ? kForgetsDoubtful : kForgets;
 }
 
 void GlassWatch::add_to(std::vector<ObstaclePoint>& points, const BodyConfig& body) const {
@@ -174,7 +183,7 @@ void GlassWatch::add_to(std::vector<ObstaclePoint>& points, const BodyConfig& bo
 std::vector<Segment> GlassWatch::panes() const {
   std::vector<Segment> panes;
   for (const Track& t : tracks_) {
-    if (t.seen == end_ && was_glass_for(t, kSureAfter) && std::abs(moved_along_m(t)) > kSurelyMoved_m) {
+    if (t.seen == end_ && is_surely_glass(t)) {
       panes.push_back(t.all);
     } else if (end_ - t.seen < kJustHidden && came_too_near(t)) {
       panes.push_back(on_line(t.all, {-kBeyondHidden_m, t.all.length_m() + kBeyondHidden_m}));

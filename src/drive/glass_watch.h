@@ -41,10 +41,12 @@ class GlassWatch {
   };
   void follow(const Segment& patch, Time now);
   double moved_along_m(const Track& track) const;
-  bool wanders_as_glass(const Track& track) const;
+  bool wanders_as_glass(const Track& track, double tolerance) const;
   static bool was_glass_for(const Track& track, Duration least);
+  bool is_surely_glass(const Track& track) const;
   bool came_too_near(const Track& track) const;
-  bool is_hidden(const Track& track) const;
+  /// Since it was seen: longer when it is too near for that.
+  Duration kept_for(const Track& track) const;
 
   double blind_m_;
   Time end_;                         ///< of the last scan
