@@ -12,6 +12,8 @@ namespace {
 constexpr double kShutOffCost_m = 1000.0;
 /// What is left of a frontier after a look from near is hardly worth another unless it is as wide as this.
 constexpr double kWide_m = 1.0;
+/// As far as the unknown is looked at, so much of it may be a room, or a hall.
+constexpr double kRoom_m2 = 8.0;
 /// So many history cells are told of: the first of them is what matters.
 constexpr std::size_t kMostCells = 16;
 
@@ -104,7 +106,7 @@ std::vector<Exploration::Ranked> Exploration::frontiers_reached(Time now, std::s
       if (!stand_map) ++left_out_.cut_off;
     }
     const std::optional<double> route_m = stand_map ? route_to(*stand_map, reach) : std::nullopt;
-    if (!route_m || (is_small && *route_m > config_.nook_way_m)) continue;
+    if (!route_m || *route_m > worth_m(f)) continue;
     const TriedPlaces::Tried* tried = frontiers_.find(f.middle_map);
     const int tries = tried ? tried->tries : 0;
     const double later_m = (is_shut_off ? kShutOffCost_m : 0.0) + config_.retry_cost_m * tries;
@@ -116,6 +118,13 @@ std::vector<Exploration::Ranked> Exploration::frontiers_reached(Time now, std::s
          {PlaceKind::kFrontier, f.middle_map, *stand_map, *route_m, f.extent_m, may_open, tries}});
   }
   return found;
+}
+
+/// So long a way it is worth, by what there is to be seen.
+double Exploration::worth_m(const Frontier& f) const {
+  if (is_nook(f)) return config_.nook_way_m;
+  if (f.beyond_m2 >= kRoom_m2) return std::numeric_limits<double>::infinity();
+  return config_.nook_way_m * f.beyond_m2 / config_.nook_m2;
 }
 
 /// A frontier is one of before when it is near to where that was. Those of the first time were always there.

@@ -113,6 +113,7 @@ class Exploration {
   std::vector<Ranked> old_places(Time now, const VisitMap& visits, const Reachability& reach) const;
   void see(Time now, std::span<const Frontier> frontiers);
   bool counts(Time now, const Vector2& middle_map) const;
+  double worth_m(const Frontier& f) const;
   bool is_left_alone(Time now, const Frontier& frontier, bool is_shut_off);
   void stay_with_chosen(std::vector<Ranked>& found) const;
 

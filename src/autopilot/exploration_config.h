@@ -53,7 +53,9 @@ struct ExplorationConfig {
                 "where less than so much is left to be seen, or through less than 0.6 m, it is a nook", 0.0,
                 100.0},
           self.nook_m2);
-    visit(Field{"nook_way_m", "and not worth a longer way than this, nor is a last look", 0.0, 1e6},
+    visit(Field{"nook_way_m",
+                "and not worth a longer way than this, nor is a last look; what is more is worth more", 0.0,
+                1e6},
           self.nook_way_m);
     visit(Field{"gain_weight", "how many metres of way a metre of frontier is worth", 0.0, 100.0},
           self.gain_weight);

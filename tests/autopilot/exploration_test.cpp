@@ -165,10 +165,37 @@ TEST(Exploration, ANookIsNotWorthALongWay) {
   for (Frontier& f : frontiers) f.beyond_m2 = 0.9 * config.nook_m2;
   ASSERT_EQ(places().size(), 1U);
   EXPECT_LT(places()[0].route_m, 1.5);
-  for (Frontier& f : frontiers) f.beyond_m2 = 1.1 * config.nook_m2;
+  for (Frontier& f : frontiers) f.beyond_m2 = 20.0;
   EXPECT_EQ(places().size(), 2U);
   for (Frontier& f : frontiers) f.is_short = true;
   EXPECT_EQ(places().size(), 1U) << "nor is a last look";
+}
+
+TEST(Exploration, MoreToBeSeenIsWorthALongerWay) {
+  const Flat flat(kTwoDoors);
+  std::vector<Frontier> frontiers = flat.frontiers;
+  ExplorationConfig config;
+  config.nook_way_m = 1.0;
+  const auto places = [&] {
+    return Exploration(config).places(Time(), flat.robot, frontiers, VisitMap(), flat.map, flat.reach());
+  };
+  const double far_m =
+      Exploration().places(Time(), flat.robot, frontiers, VisitMap(), flat.map, flat.reach())[1].route_m;
+  frontiers[0].beyond_m2 = frontiers[1].beyond_m2 = 1.1 * far_m * config.nook_m2;
+  EXPECT_EQ(places().size(), 2U);
+  frontiers[0].beyond_m2 = frontiers[1].beyond_m2 = 0.9 * far_m * config.nook_m2;
+  EXPECT_EQ(places().size(), 1U);
+}
+
+TEST(Exploration, ARoomIsWorthAnyWay) {
+  const Flat flat(kTwoDoors);
+  std::vector<Frontier> frontiers = flat.frontiers;
+  ExplorationConfig config;
+  config.nook_way_m = 0.01;
+  for (Frontier& f : frontiers) f.beyond_m2 = 10.0;
+  EXPECT_EQ(
+      Exploration(config).places(Time(), flat.robot, frontiers, VisitMap(), flat.map, flat.reach()).size(),
+      2U);
 }
 
 TEST(Exploration, WhatIsNarrowIsNotWorthTheRiskOfWhatIsNotSeen) {
