@@ -42,7 +42,8 @@ struct AutopilotConfig {
     visit(Field{"patience_s", "lost or without a sensor for so long, it gives up", 1.0, 3600.0},
           self.patience_s);
     visit(Field{"door_patience_s",
-                "so long, all in all, it hopes that doors open behind which something is left to explore",
+                "so long, all in all, it drives to doors that shut off something to explore, and as long "
+                "again it hopes that they open",
                 0.0, 86400.0},
           self.door_patience_s);
     visit(Field{"choose_every_s", "so often it looks for a better place to explore", 0.1, 60.0},

@@ -49,7 +49,7 @@ void Explorer::begin() {
   shut_.clear();
   seems_over_since_.reset();
   judged_at_.reset();
-  hope_left_ = from_seconds(config_.door_patience_s);
+  hope_left_ = looks_left_ = from_seconds(config_.door_patience_s);
   over_ = false;
   seemed_over_ = last_look_ = false;
 }
@@ -159,20 +159,25 @@ void Explorer::wait_well(const Vector2& robot_map) {
 }
 
 /// It is over when for some time there was nothing to go to for the first time. Whoever stands in a doorway
-/// goes on soon; for doors that are shut it hopes longer, all in all.
+/// goes on soon; for doors that are shut it hopes longer, all in all, and before that it drives to each of
+/// them for as long: gaps between things that it does not fit into look the same, and there may be no end of
+/// them.
 void Explorer::judge(Time now) {
-  const bool has_news = has_frontier() && !(places_.front().is_shut_off && places_.front().tries > 0);
-  const bool hopes = has_frontier() || waits_for_door() || exploration_.left_out().next;
-  const Duration since_last = judged_at_ && *judged_at_ <= now ? now - *judged_at_ : Duration(0);
+  const Duration since_last =
+      judged_at_ && *judged_at_ <= now ? std::min(now - *judged_at_, kSure) : Duration(0);
   judged_at_ = now;
-  if (has_news) {
+  const bool is_shut_off = has_frontier() && places_.front().is_shut_off;
+  const bool looks = is_shut_off && places_.front().tries == 0 && looks_left_ > Duration(0);
+  if (looks) looks_left_ -= since_last;
+  const bool hopes = has_frontier() || waits_for_door() || exploration_.left_out().next;
+  if (looks || (has_frontier() && !is_shut_off)) {
     seems_over_since_.reset();
     if (places_.front().gain >= kDoor_m) last_look_ = false;
   } else if (!seems_over_since_ || now < *seems_over_since_) {
     seems_over_since_ = now;
     seemed_over_ = last_look_ = true;
   } else if (hopes) {
-    hope_left_ -= std::min(since_last, kSure);
+    hope_left_ -= since_last;
   }
   const Duration patience = exploration_.left_out().cut_off > 0 ? kWayFree : kSure;
   over_ = seems_over_since_ && now - *seems_over_since_ >= patience && !(hopes && hope_left_ > Duration(0));

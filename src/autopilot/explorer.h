@@ -64,7 +64,8 @@ class Explorer {
   std::optional<Time> chosen_at_;
   std::vector<Place> shut_;  ///< there was a way to these and there is none any more: where to wait for it
   std::optional<Time> seems_over_since_, judged_at_;
-  Duration hope_left_{};  ///< that a door opens
+  Duration hope_left_{};   ///< that a door opens
+  Duration looks_left_{};  ///< for driving to doors for the first time
   bool over_ = false;
   bool seemed_over_ = false;  ///< once: what was tried in vain since has had its turn
   bool last_look_ = false;    ///< only what was hardly worth it is left

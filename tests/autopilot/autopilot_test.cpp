@@ -518,6 +518,36 @@ TEST(Autopilot, ExploresOnAtOnceWhenTheDoorOpensThatItHopedFor) {
             CellState::kFree);
 }
 
+/// Seconds that it explores a corridor with chambers on both sides, that it sees through gaps too narrow for
+/// it.
+double seconds_among_gaps(double door_patience_s) {
+  const int chambers = 5;
+  std::string wall = "#", chamber = "#", gaps = "#", floor = "#";
+  for (int i = 0; i < chambers; ++i)
+    wall += "########", chamber += ".......#", gaps += "###.####", floor += "........";
+  floor.back() = '#';
+  std::vector<std::string> lines{wall};
+  lines.insert(lines.end(), 8, chamber);
+  lines.push_back(gaps);
+  lines.insert(lines.end(), 6, floor);
+  lines.push_back(gaps);
+  lines.insert(lines.end(), 8, chamber);
+  lines.push_back(wall);
+  lines[12][2] = 's';
+  AutopilotSetup setup = ShutIn::stays();
+  setup.autopilot.door_patience_s = door_patience_s;
+  Pilot pilot(lines, setup);
+  pilot.looks = true;
+  const Time begin = pilot.now;
+  pilot.turn(Explore{});
+  EXPECT_EQ(pilot.run().phase, AutopilotPhase::kIdle);
+  return to_seconds(pilot.now - begin);
+}
+
+TEST(Autopilot, LooksForNoMoreThanItsPatienceIntoGapsThatItDoesNotFitInto) {
+  EXPECT_LT(seconds_among_gaps(10.0), seconds_among_gaps(200.0) - 20.0);
+}
+
 const std::vector<std::string> kBetweenTwoRooms = {
     "##################################",  //
     "#..........#..........#..........#",  //
