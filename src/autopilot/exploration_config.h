@@ -54,8 +54,9 @@ struct ExplorationConfig {
                 100.0},
           self.nook_m2);
     visit(Field{"nook_way_m",
-                "and not worth a longer way than this, nor is a last look; what is more is worth more", 0.0,
-                1e6},
+                "and not worth a longer way than this, nor is a last look; up to 8 m2, more is worth more in "
+                "proportion",
+                0.0, 1e6},
           self.nook_way_m);
     visit(Field{"gain_weight", "how many metres of way a metre of frontier is worth", 0.0, 100.0},
           self.gain_weight);

@@ -159,9 +159,8 @@ void Explorer::wait_well(const Vector2& robot_map) {
 }
 
 /// It is over when for some time there was nothing to go to for the first time. Whoever stands in a doorway
-/// goes on soon; for doors that are shut it hopes longer, all in all, and before that it drives to each of
-/// them for as long: gaps between things that it does not fit into look the same, and there may be no end of
-/// them.
+/// goes on soon; for doors that are shut it hopes longer. Both that, and driving to doors for the first time,
+/// is bounded all in all: gaps that it does not fit into look the same, and there may be no end of them.
 void Explorer::judge(Time now) {
   const Duration since_last =
       judged_at_ && *judged_at_ <= now ? std::min(now - *judged_at_, kSure) : Duration(0);

@@ -25,7 +25,7 @@ constexpr double kBehind_m = 0.25;
 constexpr double kSameLine_m = 0.05, kNext_m = 0.12, kKeeps_m = 0.5;
 // and wander: so far the robot has moved along them, and so much they may lag behind.
 constexpr double kMoved_m = 0.15, kSurelyMoved_m = 0.3, kLag = 0.3, kLag_m = 0.03;
-/// What wandered so stays a pane while it lags behind by this much more, but surely is none.
+/// What wandered so stays a pane while it lags behind by no more than this times as much, but not surely one.
 constexpr double kStays = 2.0;
 constexpr Duration kSureAfter = std::chrono::milliseconds(600), kLikelyAfter = std::chrono::milliseconds(300);
 constexpr Duration kForgets = std::chrono::milliseconds(1500);
@@ -120,7 +120,7 @@ void GlassWatch::follow(const Segment& patch, Time now) {
     t.away_m = off_line_m(patch, lidar_);
     if (t.pane_since && !wanders_as_glass(t, kStays)) {
       t.pane_since.reset();
-    } else if (!t.pane_since && std::abs(moved_along_m(t)) > kMoved_m && wanders_as_glass(t, 1.0)) {
+    } else if (!t.pane_since && std::abs(moved_along_m(t)) > kMoved_m && wanders_as_glass(t)) {
       t.pane_since = now;
     }
     return;
@@ -146,14 +146,12 @@ bool GlassWatch::was_glass_for(const Track& t, Duration least) {
 }
 
 bool GlassWatch::is_surely_glass(const Track& t) const {
-  return was_glass_for(t, kSureAfter) && std::abs(moved_along_m(t)) > kSurelyMoved_m &&
-         wanders_as_glass(t, 1.0);
+  return was_glass_for(t, kSureAfter) && std::abs(moved_along_m(t)) > kSurelyMoved_m && wanders_as_glass(t);
 }
 
 /// It came too near to be seen, and may go on for as long as it does.
 bool GlassWatch::came_too_near(const Track& t) const {
-  return t.away_m < blind_m_ + kVanishesWithin_m && was_glass_for(t, kLikelyAfter) &&
-         wanders_as_glass(t, 1.0);
+  return t.away_m < blind_m_ + kVanishesWithin_m && was_glass_for(t, kLikelyAfter) && wanders_as_glass(t);
 }
 
 Duration GlassWatch::kept_for(const Track& t) const {

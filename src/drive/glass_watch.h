@@ -41,7 +41,7 @@ class GlassWatch {
   };
   void follow(const Segment& patch, Time now);
   double moved_along_m(const Track& track) const;
-  bool wanders_as_glass(const Track& track, double tolerance) const;
+  bool wanders_as_glass(const Track& track, double tolerance = 1.0) const;
   static bool was_glass_for(const Track& track, Duration least);
   bool is_surely_glass(const Track& track) const;
   bool came_too_near(const Track& track) const;
