@@ -22,9 +22,8 @@ constexpr Duration kWayFree = std::chrono::seconds(20);
 constexpr double kSeenFrom_m = 0.8;
 /// There is ground so near to what is to be seen.
 constexpr double kBeside_m = 0.4;
-/// Routes are looked for within so far of the robot first; a map with longer ones than the second is looked
-/// at whole.
-constexpr double kLooksFirst_m = 12.0, kLooksAll_m = 100.0;
+/// Routes are looked for within so far of the robot first.
+constexpr double kLooksFirst_m = 12.0;
 
 /// Through a closed door, or a wall, nothing is seen.
 bool is_in_sight(const GridSnapshot& map, const Vector2& from, const Vector2& to) {
@@ -108,30 +107,30 @@ bool Explorer::is_seen(const Place& place) const {
 
 void Explorer::find_places(Time now, const Vector2& robot_map, const Costmap& costmap, PathPlanner& planner) {
   double looked_m = kLooksFirst_m;
-  const RouteLengths* lengths = &planner.reach(costmap, robot_map, looked_m);
+  const RouteLengths& lengths = planner.reach(costmap, robot_map, looked_m);
   const auto look_farther = [&] {
     if (std::isinf(looked_m)) return false;
-    looked_m = looked_m < kLooksAll_m ? 4.0 * looked_m : std::numeric_limits<double>::infinity();
-    lengths = &planner.reach(costmap, robot_map, looked_m);
+    looked_m *= 2.0;
+    if (planner.reach_farther(looked_m).is_whole()) looked_m = std::numeric_limits<double>::infinity();
     return true;
   };
-  const Reachability reach{[&](const Vector2& point) { return lengths->length_m(point); },
+  const Reachability reach{[&](const Vector2& point) { return lengths.length_m(point); },
                            [&](const Vector2& point, double within_m) {
-                             const auto stand = lengths->nearest_reached(point, within_m);
+                             const auto stand = lengths.nearest_reached(point, within_m);
                              return stand && is_in_sight(map_, *stand, point) ? stand : std::nullopt;
                            },
                            [&](const Vector2& point) {
-                             return std::isinf(looked_m) ? lengths->before_what_shuts(point, kBeside_m)
+                             return std::isinf(looked_m) ? lengths.before_what_shuts(point, kBeside_m)
                                                          : std::nullopt;
                            },
                            [&] { return looked_m; },
                            look_farther,
-                           [&](const Vector2& point) { return lengths->leads_by_post(point); }};
+                           [&](const Vector2& point) { return lengths.leads_by_post(point); }};
   std::vector<Frontier> frontiers = frontier_map_.frontiers(last_look_);
   for (Frontier& f : frontiers) f.beyond_m2 = frontier_map_.beyond_m2(f);
   places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach, seemed_over_);
   shut_.clear();
-  if (std::isinf(looked_m)) find_shut(frontiers, *lengths);
+  if (std::isinf(looked_m)) find_shut(frontiers, lengths);
   judge(now);
 }
 

@@ -28,6 +28,9 @@ class BucketQueue {
     buckets_[std::max(bucket, now_) % Buckets].push_back(value);
     ++size_;
   }
+  bool empty() const { return size_ == 0; }
+  /// Whether such a key may be pushed now.
+  bool takes(std::uint32_t key) const { return !began_ || key / Width < now_ + Buckets - 1; }
   std::optional<Value> pop() {
     if (size_ == 0) return std::nullopt;
     while (buckets_[now_ % Buckets].empty()) ++now_;

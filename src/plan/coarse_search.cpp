@@ -51,16 +51,37 @@ void CoarseSearch::begin(const Costmap& map, const Ground& cells, const Ground& 
     stamp_ = 1;
   }
   queue_.clear();
+  aside_.clear();
+  joining_.clear();
   nodes_[from] = {0, stamp_, kNone};
   queue_.push(estimate_from(place_of(from)), {static_cast<std::uint32_t>(from), 0});
 }
 
 std::optional<CoarseSearch::Settled> CoarseSearch::next() {
-  while (const auto entry = queue_.pop()) {
+  while (true) {
+    let_join();
+    const auto entry = queue_.pop();
+    if (!entry) return std::nullopt;
     if (nodes_[entry->index].cost != entry->cost) continue;  // a cheaper way there was found since
     return Settled{entry->index, entry->cost, entry->cost + estimate_from(place_of(entry->index))};
   }
-  return std::nullopt;
+}
+
+void CoarseSearch::take_up() {
+  joining_.insert(joining_.end(), aside_.begin(), aside_.end());
+  aside_.clear();
+  std::sort(joining_.begin(), joining_.end(),
+            [](const Settled& a, const Settled& b) { return a.estimate > b.estimate; });
+}
+
+void CoarseSearch::let_join() {
+  if (joining_.empty()) return;
+  if (queue_.empty()) queue_.clear();
+  while (!joining_.empty() && queue_.takes(joining_.back().estimate)) {
+    const Settled& next = joining_.back();
+    queue_.push(next.estimate, {static_cast<std::uint32_t>(next.index), next.cost});
+    joining_.pop_back();
+  }
 }
 
 void CoarseSearch::expand(const Settled& settled) {

@@ -36,6 +36,9 @@ class CoarseSearch {
   std::optional<Settled> next();
   /// Goes on from there.
   void expand(const Settled& settled);
+  /// Instead of going on from there now: after take_up() it comes once more, in its turn.
+  void put_aside(const Settled& settled) { aside_.push_back(settled); }
+  void take_up();
 
   /// Whether the search came by there.
   bool reached(std::size_t index) const { return nodes_[index].stamp == stamp_; }
@@ -59,6 +62,7 @@ class CoarseSearch {
   Place place_of(std::size_t index) const;
   std::uint32_t estimate_from(Place place) const;
   bool is_clear(std::size_t from, std::size_t to) const;
+  void let_join();
   void offer(const Settled& from, Place from_place, std::size_t direction, bool sure);
 
   const Costmap* map_ = nullptr;
@@ -72,6 +76,8 @@ class CoarseSearch {
   int stride_ = 0;
   /// A quarter of a step wide: within it the order does not matter much.
   BucketQueue<Entry, kStep / 4, 1024> queue_;
+  std::vector<Settled> aside_;
+  std::vector<Settled> joining_;  ///< taken up, the cheapest last; as soon as the queue takes it
 };
 
 }  // namespace dynslam

@@ -221,25 +221,40 @@ std::optional<std::size_t> PathPlanner::first_blocked_leg(const Costmap& costmap
 }
 
 const RouteLengths& PathPlanner::reach(const Costmap& costmap, const Vector2& start_map, double most_m) {
-  const Ground cells = this->cells(Unknown::kForbidden), legs = this->legs(Unknown::kForbidden);
-  lengths_.reset(costmap, cells.least_clearance());
+  wave_cells_ = cells(Unknown::kForbidden);
+  wave_legs_ = legs(Unknown::kForbidden);
+  lengths_.reset(costmap, wave_cells_->least_clearance());
   if (!start_map.allFinite() || !costmap.contains(start_map)) return lengths_;
-  const auto out = into_the_open(costmap, cells, legs, start_map, std::nullopt);
+  const auto out = into_the_open(costmap, *wave_cells_, *wave_legs_, start_map, std::nullopt);
   if (!out) return lengths_;
-  const double coarse_m = kCoarseSide * costmap.cell_size_m(), first_m = length_of(*out);
-  std::vector<float>& lengths = lengths_.length_m_;
-  search_.begin(costmap, cells, legs, costmap.coarse().index_of(cell_at(out->back(), costmap.cell_size_m())),
-                std::nullopt);
-  int expansions = 0;
+  search_.begin(costmap, *wave_cells_, *wave_legs_,
+                costmap.coarse().index_of(cell_at(out->back(), costmap.cell_size_m())), std::nullopt);
+  wave_first_m_ = length_of(*out);
+  wave_expansions_ = 0;
+  lengths_.is_whole_ = false;
+  return reach_farther(most_m);
+}
+
+const RouteLengths& PathPlanner::reach_farther(double most_m) {
+  if (lengths_.is_whole_) return lengths_;
+  lengths_.is_whole_ = true;
+  search_.take_up();
+  const CoarseGrid& coarse = lengths_.grid_;
+  const double coarse_m = kCoarseSide * lengths_.cell_size_m_;
   while (const auto settled = search_.next()) {
     const std::size_t i = settled->index, before = search_.before(i);
-    const double length_m = before == i ? first_m : lengths[before] + coarse_m * search_.last_step(i);
-    if (length_m > most_m) continue;
-    lengths[i] = static_cast<float>(length_m);
+    const double length_m =
+        before == i ? wave_first_m_ : lengths_.length_m_[before] + coarse_m * search_.last_step(i);
+    if (length_m > most_m) {
+      lengths_.is_whole_ = false;
+      search_.put_aside(*settled);
+      continue;
+    }
+    lengths_.length_m_[i] = static_cast<float>(length_m);
     // Where it stands already it leaves as it came.
-    lengths_.leads_by_post_[i] = lengths_.leads_by_post_[before] ||
-                                 (costmap.coarse()[i].by_post() && !costmap.coarse()[before].by_post());
-    if (++expansions > config_.most_expansions) break;
+    lengths_.leads_by_post_[i] =
+        lengths_.leads_by_post_[before] || (coarse[i].by_post() && !coarse[before].by_post());
+    if (++wave_expansions_ > config_.most_expansions) break;
     search_.expand(*settled);
   }
   return lengths_;

@@ -62,6 +62,9 @@ class PathPlanner {
   /// the next call.
   const RouteLengths& reach(const Costmap& costmap, const Vector2& start_map,
                             double most_m = std::numeric_limits<double>::infinity());
+  /// Goes on from where the last reach() ended: what it gave is good still, and holds more. REQUIRES: that
+  /// was the last call but for this one, and its costmap lives and is as it was.
+  const RouteLengths& reach_farther(double most_m);
 
  private:
   /// What a search came to.
@@ -85,6 +88,9 @@ class PathPlanner {
   double robot_radius_m_;
   CoarseSearch search_;
   RouteLengths lengths_;
+  std::optional<Ground> wave_cells_, wave_legs_;  ///< of reach()
+  double wave_first_m_ = 0.0;                     ///< the way into the open
+  int wave_expansions_ = 0;
 };
 
 }  // namespace dynslam

@@ -22,6 +22,7 @@ void RouteLengths::reset(const Costmap& costmap, std::uint8_t least_clearance) {
   grid_ = costmap.coarse();
   length_m_.assign(grid_.size(), kUnreached);
   leads_by_post_.assign(grid_.size(), false);
+  is_whole_ = true;
 }
 
 std::optional<double> RouteLengths::length_m(const Vector2& point_map) const {

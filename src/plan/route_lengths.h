@@ -14,6 +14,8 @@ namespace dynslam {
 /// directions: up to 2.8 % longer than the shortened route. A copy of what the costmap was.
 class RouteLengths {
  public:
+  /// Nothing was left out for being too far away.
+  bool is_whole() const { return is_whole_; }
   /// Of the point's coarse cell; nothing where there is no way, or a longer one than was looked at.
   std::optional<double> length_m(const Vector2& point_map) const;
   /// The reached place nearest to a point; always one where the robot has room, and beside a lone post only
@@ -40,6 +42,7 @@ class RouteLengths {
   CoarseGrid grid_;
   std::vector<float> length_m_;
   std::vector<bool> leads_by_post_;
+  bool is_whole_ = true;
 };
 
 }  // namespace dynslam

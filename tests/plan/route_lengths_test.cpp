@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -63,6 +64,58 @@ TEST(RouteLengths, EndAtWallsAndAtTheLimit) {
   const RouteLengths near = planner.reach(map, {0.5, 1.0}, 1.0);
   EXPECT_TRUE(near.length_m({1.4, 1.0}));
   EXPECT_FALSE(near.length_m({1.7, 1.0}));
+}
+
+/// A floor strewn with posts, so that the easy way is often not the short one.
+DrawnFloor strewn_floor(unsigned seed) {
+  DrawnFloor floor;
+  floor.clear(0, 0, 8, 6);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> x(1, 8), y(0, 6);
+  for (int i = 0; i < 60; ++i) {
+    const double left = x(random), low = y(random);
+    floor.occupy(left, low, left + 0.1, low + 0.1);
+  }
+  return floor;
+}
+
+TEST(RouteLengths, AreTheSameWhenItLooksFartherBitByBit) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    DrawnFloor floor = strewn_floor(seed);
+    const Costmap map = floor.costmap();
+    PathPlanner whole_planner({}, kRadius_m), planner({}, kRadius_m);
+    const Vector2 start{0.5, 3.0};
+    const RouteLengths whole = whole_planner.reach(map, start);
+    const RouteLengths& lengths = planner.reach(map, start, 1.0);
+    EXPECT_FALSE(lengths.is_whole());
+    EXPECT_FALSE(lengths.length_m({2.5, 3.0}));
+    for (double most_m = 2.0; !lengths.is_whole(); most_m *= 2.0) {
+      ASSERT_LT(most_m, 100.0);
+      planner.reach_farther(most_m);
+    }
+    int reached = 0;
+    for (double y = 0.02; y < 6; y += 0.08) {
+      for (double x = 0.02; x < 8; x += 0.08) {
+        const auto expected = whole.length_m({x, y}), length_m = lengths.length_m({x, y});
+        ASSERT_EQ(length_m.has_value(), expected.has_value()) << seed << ": " << x << ", " << y;
+        if (!length_m) continue;
+        ASSERT_NEAR(*length_m, *expected, 0.02 + 0.02 * *expected) << seed << ": " << x << ", " << y;
+        ++reached;
+      }
+    }
+    EXPECT_GT(reached, 1000);
+  }
+}
+
+TEST(RouteLengths, AreWholeWhenNothingIsFartherAway) {
+  DrawnFloor floor = floor_of(kRooms);
+  const Costmap map = floor.costmap();
+  PathPlanner planner({}, kRadius_m);
+  EXPECT_TRUE(PathPlanner({}, kRadius_m).reach_farther(1.0).is_whole()) << "nothing was looked at";
+  EXPECT_TRUE(planner.reach(map, {0.5, 1.0}, 50.0).is_whole());
+  EXPECT_TRUE(planner.reach(map, {-1e300, 1.0}, 1.0).is_whole());
+  EXPECT_FALSE(planner.reach(map, {0.5, 1.0}, 1.0).is_whole());
+  EXPECT_TRUE(planner.reach_farther(std::numeric_limits<double>::infinity()).is_whole());
 }
 
 TEST(RouteLengths, NamesTheReachedPlaceNearestToAPoint) {
