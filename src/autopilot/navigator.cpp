@@ -17,6 +17,12 @@ constexpr double kBetter = 0.9;
 constexpr double kStepsAside_s = 8.0;
 /// A route's end is not farther away when its follower has arrived there.
 constexpr double kAtEnd_m = 0.5;
+/// Farther from a destination than this it is not at it.
+constexpr double kNearEnough_m = 0.3;
+/// Who passes by is gone sooner.
+constexpr Duration kHeldUp = std::chrono::seconds(1);
+/// So many doors that stay shut are waited before.
+constexpr std::size_t kMostDoors = 3;
 /// To look whether the way is still shut, it is not worth to drive less far.
 constexpr double kWorthLooking_m = 1.0;
 /// The follower knows how fast it drives.
@@ -47,6 +53,7 @@ void Navigator::give_up() {
   held_up_since_.reset();
   near_since_.reset();
   had_route_ = was_free_ = approaches_ = looked_ = false;
+  in_vain_.clear();
 }
 
 void Navigator::plan_anew() {
@@ -58,6 +65,7 @@ void Navigator::plan_anew() {
 Navigator::Report Navigator::turn(Time now, const Pose2& map_T_robot, const Costmap& costmap,
                                   const FollowReport& follow) {
   if (!to_) return {};
+  note_nearness(now, follow);
   const bool is_news = task_ && follow.task == task_->id;
   const bool arrives = is_news && is_arrival(now, map_T_robot, follow);
   if (arrives && approaches_) {
@@ -71,13 +79,35 @@ Navigator::Report Navigator::turn(Time now, const Pose2& map_T_robot, const Cost
   if (is_route_due(now, costmap, follow)) plan(now, map_T_robot, costmap, follow);
   if (!task_) {
     if (is_hopeless(costmap, to_->point_map)) return end(State::kNoRoute, last_plan_->reason);
-    return wait(now, last_plan_->reason, last_plan_->is_cut_off ? patience_s_ : kStepsAside_s);
+    if (is_patient(now, last_plan_->is_cut_off ? patience_s_ : kStepsAside_s))
+      return {State::kWaiting, last_plan_->reason};
+    if (looks_elsewhere(now, map_T_robot, costmap, follow)) return {State::kDriving};
+    return end(State::kNoRoute, last_plan_->reason);
   }
-  if (is_news && (follow.state == Following::kBlocked || follow.state == Following::kWaiting))
-    return wait(now, follow.reason, patience_s_);
+  if (is_news && (follow.state == Following::kBlocked || follow.state == Following::kWaiting)) {
+    if (is_near_enough(now, map_T_robot)) return end(State::kArrived, follow.reason);
+    if (is_patient(now, patience_s_)) return {State::kWaiting, follow.reason};
+    return end(State::kNoRoute, follow.reason);
+  }
   held_up_since_.reset();
-  if (near_since_) return {State::kWaiting, last_plan_->reason};
+  if (is_news && follow.state == Following::kArrived) return {State::kWaiting, last_plan_->reason};
   return {State::kDriving};
+}
+
+/// It is driving the last of its way, or stands at its end. Whoever stands there gets his time once, however
+/// often the robot stirs.
+void Navigator::note_nearness(Time now, const FollowReport& follow) {
+  const bool is_near =
+      task_ && follow.task == task_->id && stops_ && !approaches_ && follow.remaining_m <= kAtEnd_m;
+  if (!is_near) near_since_.reset();
+  if (is_near && (!near_since_ || now < *near_since_)) near_since_ = now;
+}
+
+/// Where something holds it that does not go away, it is at its destination when it is within its tolerance.
+bool Navigator::is_near_enough(Time now, const Pose2& map_T_robot) const {
+  const bool is_held = held_up_since_ && now - *held_up_since_ >= kHeldUp;
+  return is_held && near_since_ && now - *near_since_ > from_seconds(kStepsAside_s) &&
+         (to_->point_map - map_T_robot.translation()).norm() <= kNearEnough_m;
 }
 
 /// At the destination; or as near as it can come, and whoever stood there had time to go.
@@ -86,9 +116,7 @@ bool Navigator::is_arrival(Time now, const Pose2& map_T_robot, const FollowRepor
                         (task_->route_map.back() - map_T_robot.translation()).norm() <= kAtEnd_m;
   const bool may_get_free =
       stops_ && was_free_ && !approaches_ && last_plan_->outcome == PlanOutcome::kNearby;
-  if (!is_there || !may_get_free) near_since_.reset();
-  if (!is_there || !may_get_free) return is_there;
-  if (!near_since_ || now < *near_since_) near_since_ = now;
+  if (!is_there || !may_get_free || !near_since_) return is_there;
   return now - *near_since_ > from_seconds(kStepsAside_s);
 }
 
@@ -107,7 +135,8 @@ bool Navigator::is_blocked(const Costmap& costmap, const FollowReport& follow) c
 
 void Navigator::plan(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow) {
   planned_at_ = now;
-  Plan plan = planner_.plan(costmap, {map_T_robot.translation(), to_->point_map});
+  Plan plan =
+      planner_.plan(costmap, {map_T_robot.translation(), to_->point_map, Unknown::kForbidden, in_vain_});
   was_free_ = was_free_ || plan.outcome == PlanOutcome::kFound;
   const bool is_shut = plan.outcome == PlanOutcome::kNoRoute;
   if (is_shut) plan = approach(std::move(plan), map_T_robot.translation(), costmap);
@@ -128,7 +157,8 @@ void Navigator::plan(Time now, const Pose2& map_T_robot, const Costmap& costmap,
 /// Instead of no route to where one could stand, as far as is known: to the place nearest to there, once.
 Plan Navigator::approach(Plan plan, const Vector2& robot_map, const Costmap& costmap) {
   if (!stops_ || looked_ || !plan.nearest_map || !(plan.is_cut_off || was_free_)) return plan;
-  if ((*plan.nearest_map - robot_map).norm() < kWorthLooking_m) return plan;
+  if (!in_vain_.empty() && !plan.is_before_door) return plan;
+  if (!approaches_ && (*plan.nearest_map - robot_map).norm() < kWorthLooking_m) return plan;
   Plan nearer = planner_.plan(costmap, {robot_map, *plan.nearest_map});
   if (nearer.outcome == PlanOutcome::kNoRoute) return plan;
   nearer.outcome = PlanOutcome::kNearby;
@@ -143,11 +173,22 @@ bool Navigator::is_better(const Plan& plan, const Costmap& costmap, const Follow
   return plan.length_m < kBetter * follow.remaining_m;
 }
 
-Navigator::Report Navigator::wait(Time now, const std::string& reason, double most_s) {
+/// Whether what holds it up may go away still.
+bool Navigator::is_patient(Time now, double most_s) {
   if (!held_up_since_ || now < *held_up_since_) held_up_since_ = now;
   const double patience_s = std::min({patience_s_, most_s, had_route_ ? patience_s_ : kFirstPatience_s});
-  if (now - *held_up_since_ > from_seconds(patience_s)) return end(State::kNoRoute, reason);
-  return {State::kWaiting, reason};
+  return now - *held_up_since_ <= from_seconds(patience_s);
+}
+
+/// Where one door stayed shut it goes and looks at another, each once.
+bool Navigator::looks_elsewhere(Time now, const Pose2& map_T_robot, const Costmap& costmap,
+                                const FollowReport& follow) {
+  if (!stops_ || !last_plan_->is_before_door || in_vain_.size() >= kMostDoors) return false;
+  in_vain_.push_back(*last_plan_->nearest_map);
+  looked_ = false;
+  held_up_since_.reset();
+  plan(now, map_T_robot, costmap, follow);
+  return task_.has_value();
 }
 
 Navigator::Report Navigator::end(State state, const std::string& reason) {

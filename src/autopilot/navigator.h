@@ -38,7 +38,7 @@ struct FollowReport {
 
 /// Brings the robot to one destination: keeps a route to it good while the follower drives along it, and
 /// knows when to wait, and when there is no way. What shut the way may be gone since it was seen: it drives
-/// as near as it can come before it says so. Pure; one thread.
+/// as near as it can come before it says so, and looks at another door, where there is one. Pure; one thread.
 class Navigator {
  public:
   enum class State {
@@ -75,7 +75,11 @@ class Navigator {
   Plan approach(Plan plan, const Vector2& robot_map, const Costmap& costmap);
   bool is_better(const Plan& plan, const Costmap& costmap, const FollowReport& follow) const;
   bool is_blocked(const Costmap& costmap, const FollowReport& follow) const;
-  Report wait(Time now, const std::string& reason, double most_s);
+  void note_nearness(Time now, const FollowReport& follow);
+  bool is_near_enough(Time now, const Pose2& map_T_robot) const;
+  bool is_patient(Time now, double most_s);
+  bool looks_elsewhere(Time now, const Pose2& map_T_robot, const Costmap& costmap,
+                       const FollowReport& follow);
   Report end(State state, const std::string& reason);
 
   NavigationConfig config_;
@@ -86,9 +90,10 @@ class Navigator {
   double patience_s_ = 0.0;
   bool had_route_ = false;
   bool was_free_ = false;           ///< the destination, to stand at
-  std::optional<Time> near_since_;  ///< it stands as near as it can come
+  std::optional<Time> near_since_;  ///< it is nearly at the end of its way
   bool approaches_ = false;         ///< the way that it knows of is shut: it drives there to look again
   bool looked_ = false;             ///< it did
+  std::vector<Vector2> in_vain_;    ///< before which doors it waited
   std::optional<Plan> last_plan_;
   std::optional<Time> planned_at_;
   std::optional<Time> held_up_since_;

@@ -8,7 +8,8 @@ namespace dynslam {
 
 GroundThereWas ground_there_was(const CoarseGrid& grid, std::span<const std::size_t> from,
                                 std::uint8_t least_clearance,
-                                const std::function<bool(std::size_t)>& is_reached) {
+                                const std::function<bool(std::size_t)>& is_reached,
+                                const std::function<bool(std::size_t)>& is_left_out) {
   const auto had_room = [&](std::size_t index) { return grid[index].once >= least_clearance; };
   if (std::none_of(from.begin(), from.end(), had_room)) return {};
   std::vector<bool> seen(grid.size());
@@ -16,7 +17,7 @@ GroundThereWas ground_there_was(const CoarseGrid& grid, std::span<const std::siz
   const auto offer = [&](std::size_t index) {
     if (seen[index] || !had_room(index)) return;
     seen[index] = true;
-    wave.push_back(index);
+    if (!is_left_out(index)) wave.push_back(index);
   };
   for (const std::size_t index : from) offer(index);
   const auto stride = static_cast<std::size_t>(grid.stride());

@@ -17,6 +17,8 @@ namespace {
 constexpr int kPocket = 150;
 /// So far before a door that is shut its leaf can open.
 constexpr double kBefore_m = 0.6;
+/// All that is reached of the ground before one door is nearer to the place before it.
+constexpr double kSameDoor_m = 1.2;
 
 Plan no_route(std::string reason) {
   Plan plan;
@@ -84,8 +86,8 @@ Plan PathPlanner::plan(const Costmap& costmap, const PlanRequest& request) {
   if (!found.last) {
     plan.nearest_map = best_point(costmap, found.end);
     plan.is_cut_off = !found.gave_up && !trouble_at(costmap, cells, goal);
-    const auto before = plan.is_cut_off ? before_what_shuts(costmap, goal) : std::nullopt;
-    if (before) plan.nearest_map = before;
+    const auto before = plan.is_cut_off ? before_what_shuts(costmap, request) : std::nullopt;
+    if ((plan.is_before_door = before.has_value())) plan.nearest_map = before;
     return plan;
   }
   plan.outcome = found.exactly ? PlanOutcome::kFound : PlanOutcome::kNearby;
@@ -162,12 +164,19 @@ PathPlanner::Found PathPlanner::search(const Costmap& costmap, const Ground& cel
 }
 
 /// From there it is seen whether the way is free again, and it is as far from it as the last search got.
-std::optional<Vector2> PathPlanner::before_what_shuts(const Costmap& costmap, const Vector2& goal) const {
-  const std::size_t aim = costmap.coarse().index_of(cell_at(goal, costmap.cell_size_m()));
-  const auto edge =
-      ground_there_was(costmap.coarse(), {&aim, 1}, cells(Unknown::kForbidden).least_clearance(),
-                       [&](std::size_t index) { return search_.reached(index); })
-          .reached;
+std::optional<Vector2> PathPlanner::before_what_shuts(const Costmap& costmap,
+                                                      const PlanRequest& request) const {
+  const std::size_t aim = costmap.coarse().index_of(cell_at(request.goal_map, costmap.cell_size_m()));
+  const auto is_reached = [&](std::size_t index) { return search_.reached(index); };
+  const auto was_in_vain = [&](std::size_t index) {
+    if (request.in_vain_map.empty() || !is_reached(index)) return false;
+    const Vector2 at = best_point(costmap, index);
+    return std::any_of(request.in_vain_map.begin(), request.in_vain_map.end(),
+                       [&](const Vector2& place) { return (place - at).norm() < kSameDoor_m; });
+  };
+  const auto edge = ground_there_was(costmap.coarse(), {&aim, 1},
+                                     cells(Unknown::kForbidden).least_clearance(), is_reached, was_in_vain)
+                        .reached;
   if (!edge) return std::nullopt;
   const auto from_edge_m = [&](std::size_t at) {
     return (best_point(costmap, at) - best_point(costmap, *edge)).norm();

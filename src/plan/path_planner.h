@@ -20,6 +20,7 @@ struct PlanRequest {
   Vector2 start_map;
   Vector2 goal_map;
   Unknown unknown = Unknown::kForbidden;
+  std::vector<Vector2> in_vain_map = {};  ///< before what shuts the way there it was waited
 };
 
 enum class PlanOutcome {
@@ -37,6 +38,7 @@ struct Plan {
   /// Of kNoRoute: the reachable place before what shuts the way that there was once; where there was none,
   /// the one nearest to the goal, if any.
   std::optional<Vector2> nearest_map;
+  bool is_before_door = false;  ///< that place is the former
 };
 
 /// Finds ways for a round robot. The way is searched on the coarse cells with the full margin, then pulled
@@ -81,7 +83,7 @@ class PathPlanner {
                                                     const std::optional<Vector2>& goal);
   Found search(const Costmap& costmap, const Ground& cells, const Ground& legs, const Vector2& from,
                const Vector2& goal);
-  std::optional<Vector2> before_what_shuts(const Costmap& costmap, const Vector2& goal) const;
+  std::optional<Vector2> before_what_shuts(const Costmap& costmap, const PlanRequest& request) const;
   std::vector<Vector2> centres_to(const Costmap& costmap, std::size_t end) const;
 
   PlannerConfig config_;
