@@ -17,10 +17,14 @@ constexpr double kBetter = 0.9;
 constexpr double kStepsAside_s = 8.0;
 /// A route's end is not farther away when its follower has arrived there.
 constexpr double kAtEnd_m = 0.5;
-/// Farther from a destination than this it is not at it.
-constexpr double kNearEnough_m = 0.3;
+/// Nearer to a destination there is only the heading left to do; farther away it is not at it.
+constexpr double kThere_m = 0.05, kNearEnough_m = 0.3;
 /// Who passes by is gone sooner.
 constexpr Duration kHeldUp = std::chrono::seconds(1);
+/// Boxed in for so long, it makes room.
+constexpr Duration kMakesRoom = std::chrono::seconds(4);
+/// In a pocket no way is longer; and it is worth to go so much farther from the way out.
+constexpr double kPocket_m = 2.5, kRoom_m = 0.4;
 /// So many doors that stay shut are waited before.
 constexpr std::size_t kMostDoors = 3;
 /// To look whether the way is still shut, it is not worth to drive less far.
@@ -52,7 +56,8 @@ void Navigator::give_up() {
   planned_at_.reset();
   held_up_since_.reset();
   near_since_.reset();
-  had_route_ = was_free_ = approaches_ = looked_ = false;
+  had_route_ = was_free_ = approaches_ = looked_ = gave_way_ = false;
+  aside_map_.reset();
   in_vain_.clear();
 }
 
@@ -69,7 +74,8 @@ Navigator::Report Navigator::turn(Time now, const Pose2& map_T_robot, const Cost
   const bool is_news = task_ && follow.task == task_->id;
   const bool arrives = is_news && is_arrival(now, map_T_robot, follow);
   if (arrives && approaches_) {
-    looked_ = true;
+    looked_ = looked_ || !aside_map_;
+    aside_map_.reset();
     plan_anew();
   } else if (arrives) {
     return end(State::kArrived,
@@ -77,21 +83,28 @@ Navigator::Report Navigator::turn(Time now, const Pose2& map_T_robot, const Cost
   }
   if (is_news && follow.state == Following::kStuck) return end(State::kStuck, follow.reason);
   if (is_route_due(now, costmap, follow)) plan(now, map_T_robot, costmap, follow);
-  if (!task_) {
-    if (is_hopeless(costmap, to_->point_map)) return end(State::kNoRoute, last_plan_->reason);
-    if (is_patient(now, last_plan_->is_cut_off ? patience_s_ : kStepsAside_s))
-      return {State::kWaiting, last_plan_->reason};
-    if (looks_elsewhere(now, map_T_robot, costmap, follow)) return {State::kDriving};
-    return end(State::kNoRoute, last_plan_->reason);
-  }
-  if (is_news && (follow.state == Following::kBlocked || follow.state == Following::kWaiting)) {
-    if (is_near_enough(now, map_T_robot)) return end(State::kArrived, follow.reason);
-    if (is_patient(now, patience_s_)) return {State::kWaiting, follow.reason};
-    return end(State::kNoRoute, follow.reason);
-  }
+  if (!task_) return without_route(now, map_T_robot, costmap, follow);
+  if (is_news && (follow.state == Following::kBlocked || follow.state == Following::kWaiting))
+    return held(now, map_T_robot, follow.reason);
   held_up_since_.reset();
   if (is_news && follow.state == Following::kArrived) return {State::kWaiting, last_plan_->reason};
   return {State::kDriving};
+}
+
+Navigator::Report Navigator::without_route(Time now, const Pose2& map_T_robot, const Costmap& costmap,
+                                           const FollowReport& follow) {
+  if (is_hopeless(costmap, to_->point_map)) return end(State::kNoRoute, last_plan_->reason);
+  if (gives_way(now, map_T_robot, costmap, follow)) return {State::kDriving};
+  if (is_patient(now, last_plan_->is_cut_off ? patience_s_ : kStepsAside_s))
+    return {State::kWaiting, last_plan_->reason};
+  if (looks_elsewhere(now, map_T_robot, costmap, follow)) return {State::kDriving};
+  return end(State::kNoRoute, last_plan_->reason);
+}
+
+Navigator::Report Navigator::held(Time now, const Pose2& map_T_robot, const std::string& reason) {
+  if (is_near_enough(now, map_T_robot)) return end(State::kArrived, reason);
+  if (is_patient(now, patience_s_)) return {State::kWaiting, reason};
+  return end(State::kNoRoute, reason);
 }
 
 /// It is driving the last of its way, or stands at its end. Whoever stands there gets his time once, however
@@ -106,8 +119,9 @@ void Navigator::note_nearness(Time now, const FollowReport& follow) {
 /// Where something holds it that does not go away, it is at its destination when it is within its tolerance.
 bool Navigator::is_near_enough(Time now, const Pose2& map_T_robot) const {
   const bool is_held = held_up_since_ && now - *held_up_since_ >= kHeldUp;
-  return is_held && near_since_ && now - *near_since_ > from_seconds(kStepsAside_s) &&
-         (to_->point_map - map_T_robot.translation()).norm() <= kNearEnough_m;
+  if (!is_held || !near_since_ || now - *near_since_ <= from_seconds(kStepsAside_s)) return false;
+  const double off_m = (to_->point_map - map_T_robot.translation()).norm();
+  return off_m > kThere_m && off_m <= kNearEnough_m;
 }
 
 /// At the destination; or as near as it can come, and whoever stood there had time to go.
@@ -154,12 +168,18 @@ void Navigator::plan(Time now, const Pose2& map_T_robot, const Costmap& costmap,
   last_plan_ = std::move(plan);
 }
 
-/// Instead of no route to where one could stand, as far as is known: to the place nearest to there, once.
+/// Whether it goes to the place nearest to where there is no route to, though one could stand there, as far
+/// as is known; once.
+bool Navigator::is_worth_a_look(const Plan& plan, const Vector2& robot_map) const {
+  if (!stops_ || looked_ || !plan.nearest_map || !(plan.is_cut_off || was_free_)) return false;
+  if (!in_vain_.empty() && !plan.is_before_door) return false;
+  return approaches_ || (*plan.nearest_map - robot_map).norm() >= kWorthLooking_m;
+}
+
+/// Where to in place of the destination.
 Plan Navigator::approach(Plan plan, const Vector2& robot_map, const Costmap& costmap) {
-  if (!stops_ || looked_ || !plan.nearest_map || !(plan.is_cut_off || was_free_)) return plan;
-  if (!in_vain_.empty() && !plan.is_before_door) return plan;
-  if (!approaches_ && (*plan.nearest_map - robot_map).norm() < kWorthLooking_m) return plan;
-  Plan nearer = planner_.plan(costmap, {robot_map, *plan.nearest_map});
+  if (!aside_map_ && !is_worth_a_look(plan, robot_map)) return plan;
+  Plan nearer = planner_.plan(costmap, {robot_map, aside_map_ ? *aside_map_ : *plan.nearest_map});
   if (nearer.outcome == PlanOutcome::kNoRoute) return plan;
   nearer.outcome = PlanOutcome::kNearby;
   nearer.reason = plan.reason;
@@ -178,6 +198,23 @@ bool Navigator::is_patient(Time now, double most_s) {
   if (!held_up_since_ || now < *held_up_since_) held_up_since_ = now;
   const double patience_s = std::min({patience_s_, most_s, had_route_ ? patience_s_ : kFirstPatience_s});
   return now - *held_up_since_ <= from_seconds(patience_s);
+}
+
+/// In a pocket whose only way out somebody stands in, it goes to the far end: he may be waiting for it.
+bool Navigator::gives_way(Time now, const Pose2& map_T_robot, const Costmap& costmap,
+                          const FollowReport& follow) {
+  if (!stops_ || gave_way_ || !last_plan_->is_cut_off || !last_plan_->nearest_map) return false;
+  if (!held_up_since_ || now - *held_up_since_ < kMakesRoom) return false;
+  gave_way_ = true;
+  const Vector2 shut_map = *last_plan_->nearest_map;
+  const RouteLengths& lengths = planner_.reach(costmap, map_T_robot.translation(), kPocket_m);
+  const auto aside_map = lengths.is_whole() ? lengths.farthest_reached(shut_map) : std::nullopt;
+  const double away_m = (map_T_robot.translation() - shut_map).norm();
+  if (!aside_map || (*aside_map - shut_map).norm() < away_m + kRoom_m) return false;
+  aside_map_ = aside_map;
+  held_up_since_.reset();
+  plan(now, map_T_robot, costmap, follow);
+  return task_.has_value();
 }
 
 /// Where one door stayed shut it goes and looks at another, each once.

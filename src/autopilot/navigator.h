@@ -38,7 +38,8 @@ struct FollowReport {
 
 /// Brings the robot to one destination: keeps a route to it good while the follower drives along it, and
 /// knows when to wait, and when there is no way. What shut the way may be gone since it was seen: it drives
-/// as near as it can come before it says so, and looks at another door, where there is one. Pure; one thread.
+/// as near as it can come before it says so, and looks at another door, where there is one. Boxed in it makes
+/// room once for who may be waiting for that. Pure; one thread.
 class Navigator {
  public:
   enum class State {
@@ -72,12 +73,17 @@ class Navigator {
   bool is_route_due(Time now, const Costmap& costmap, const FollowReport& follow) const;
   void plan(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow);
   bool is_arrival(Time now, const Pose2& map_T_robot, const FollowReport& follow);
+  bool is_worth_a_look(const Plan& plan, const Vector2& robot_map) const;
   Plan approach(Plan plan, const Vector2& robot_map, const Costmap& costmap);
   bool is_better(const Plan& plan, const Costmap& costmap, const FollowReport& follow) const;
   bool is_blocked(const Costmap& costmap, const FollowReport& follow) const;
+  Report without_route(Time now, const Pose2& map_T_robot, const Costmap& costmap,
+                       const FollowReport& follow);
+  Report held(Time now, const Pose2& map_T_robot, const std::string& reason);
   void note_nearness(Time now, const FollowReport& follow);
   bool is_near_enough(Time now, const Pose2& map_T_robot) const;
   bool is_patient(Time now, double most_s);
+  bool gives_way(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow);
   bool looks_elsewhere(Time now, const Pose2& map_T_robot, const Costmap& costmap,
                        const FollowReport& follow);
   Report end(State state, const std::string& reason);
@@ -93,7 +99,9 @@ class Navigator {
   std::optional<Time> near_since_;  ///< it is nearly at the end of its way
   bool approaches_ = false;         ///< the way that it knows of is shut: it drives there to look again
   bool looked_ = false;             ///< it did
-  std::vector<Vector2> in_vain_;    ///< before which doors it waited
+  bool gave_way_ = false;
+  std::optional<Vector2> aside_map_;  ///< there it makes room for who stands in the only way out
+  std::vector<Vector2> in_vain_;      ///< before which doors it waited
   std::optional<Plan> last_plan_;
   std::optional<Time> planned_at_;
   std::optional<Time> held_up_since_;

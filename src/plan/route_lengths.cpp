@@ -57,6 +57,20 @@ std::optional<Vector2> RouteLengths::nearest(const Vector2& point_map, double wi
   return nearest;
 }
 
+std::optional<Vector2> RouteLengths::farthest_reached(const Vector2& point_map) const {
+  std::optional<Vector2> farthest;
+  double most_m = 0.0;
+  for (std::size_t i = 0; i < length_m_.size(); ++i) {
+    if (length_m_[i] == kUnreached) continue;
+    const Vector2 centre = cell_centre(grid_.best_cell(i), cell_size_m_);
+    const double distance_m = (centre - point_map).norm();
+    if (farthest && distance_m <= most_m) continue;
+    farthest = centre;
+    most_m = distance_m;
+  }
+  return farthest;
+}
+
 std::optional<Vector2> RouteLengths::before_what_shuts(const Vector2& point_map, double within_m) const {
   std::vector<std::size_t> around;
   for_each_within(point_map, within_m, [&](std::size_t index) {

@@ -154,6 +154,39 @@ TEST(Autopilot, SaysThatThereIsNoWayWhenAllDoorsStayShut) {
   EXPECT_LT(pilot.now - shut, std::chrono::seconds(45)) << "each is waited for once";
 }
 
+/// Who stands there goes on when the robot is out of the way.
+TEST(Autopilot, MakesRoomForWhoStandsInTheOnlyWayOut) {
+  Pilot pilot({
+      "##############################",  //
+      "##########...................#",  //
+      "##########...................#",  //
+      "##.......b...............g...#",  //
+      "##......sb...................#",  //
+      "##.......b...................#",  //
+      "##########...................#",  //
+      "##########...................#",  //
+      "##############################",  //
+  });
+  pilot.building.know_all();
+  pilot.turn(GoThere{{pilot.building.find('g')}});
+  pilot.glides = false;
+  pilot.turn();
+  pilot.glides = true;
+  pilot.building.wall_up('b');
+  pilot.building.know_all();
+  const Vector2 out = pilot.building.find('b');
+  const Time shut = pilot.now;
+  AutopilotStatus status = pilot.turn();
+  while (status.phase == AutopilotPhase::kActive && pilot.away_m(out) < 1.0) status = pilot.turn();
+  ASSERT_EQ(status.phase, AutopilotPhase::kActive) << status.reason;
+  EXPECT_GT(pilot.now - shut, std::chrono::seconds(3)) << "who only passes by need not be made room for";
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kActive);
+  EXPECT_GT(pilot.away_m(out), 1.0) << "it stays out of the way";
+  pilot.building.open('b');
+  pilot.building.know_all();
+  EXPECT_EQ(pilot.run().reason, "arrived");
+}
+
 /// Beside its destination something holds it, though its map says that there is room.
 TEST(Autopilot, ContentsItselfWithAPlaceWhereItIsHeldBesideItsDestination) {
   KnownFlat pilot;

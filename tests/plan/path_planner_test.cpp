@@ -389,6 +389,30 @@ TEST(PathPlanner, NamesTheFirstLegThatIsBlocked) {
   EXPECT_EQ(planner.first_blocked_leg(floor.costmap(), away), 0U);
 }
 
+TEST(PathPlanner, NamesAnotherDoorWhenBeforeOneItWasInVain) {
+  DrawnFloor floor;
+  floor.clear(0, 0, 6, 6);
+  floor.occupy(3, 0, 3.1, 6);
+  for (const double low : {0.5, 4.5}) floor.clear(3, low, 3.1, low + 0.9);
+  Costmap map(kCell_m);
+  map.update(floor.grid.snapshot());
+  for (const double low : {0.5, 4.5}) floor.occupy(3, low, 3.1, low + 0.9);
+  map.update(floor.grid.snapshot());
+  PathPlanner planner({}, kRadius_m);
+  PlanRequest request{{1, 3}, {5, 1.5}};
+  const Plan one = planner.plan(map, request);
+  ASSERT_TRUE(one.nearest_map && one.is_before_door);
+  EXPECT_LT(one.nearest_map->y(), 2.0) << "that nearer to the goal";
+  request.in_vain_map.push_back(*one.nearest_map);
+  const Plan other = planner.plan(map, request);
+  ASSERT_TRUE(other.nearest_map && other.is_before_door);
+  EXPECT_GT(other.nearest_map->y(), 4.0);
+  EXPECT_LT(other.nearest_map->x(), 3.0);
+  request.in_vain_map.push_back(*other.nearest_map);
+  EXPECT_FALSE(planner.plan(map, request).is_before_door);
+  EXPECT_TRUE(planner.plan(map, request).nearest_map);
+}
+
 TEST(PathPlanner, GivesTheSameRouteAgainWhateverItDidBefore) {
   DrawnFloor floor = two_rooms();
   const Costmap map = floor.costmap();

@@ -118,6 +118,19 @@ TEST(RouteLengths, AreWholeWhenNothingIsFartherAway) {
   EXPECT_TRUE(planner.reach_farther(std::numeric_limits<double>::infinity()).is_whole());
 }
 
+TEST(RouteLengths, NamesTheReachedPlaceFarthestFromAPoint) {
+  DrawnFloor floor = floor_of(kRooms);
+  const Costmap map = floor.costmap();
+  PathPlanner planner({}, kRadius_m);
+  const auto farthest = planner.reach(map, {0.5, 1.0}).farthest_reached({0.3, 1.5});
+  ASSERT_TRUE(farthest);
+  EXPECT_NEAR(farthest->x(), 2.65, 0.1);
+  EXPECT_NEAR(farthest->y(), 0.95, 0.1) << "not in the room below";
+  EXPECT_LT((*planner.reach(map, {0.5, 1.0}, 0.5).farthest_reached({0.3, 1.5}) - Vector2(0.5, 1.0)).norm(),
+            0.6);
+  EXPECT_FALSE(planner.reach(map, {-1e300, 1.0}).farthest_reached({0, 0}));
+}
+
 TEST(RouteLengths, NamesTheReachedPlaceNearestToAPoint) {
   DrawnFloor floor = floor_of(kRooms);
   const Costmap map = floor.costmap();
