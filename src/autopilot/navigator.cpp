@@ -21,8 +21,8 @@ constexpr double kAtEnd_m = 0.5;
 constexpr double kThere_m = 0.05, kNearEnough_m = 0.3;
 /// Who passes by is gone sooner.
 constexpr Duration kHeldUp = std::chrono::seconds(1);
-/// Boxed in for so long, it makes room.
-constexpr Duration kMakesRoom = std::chrono::seconds(4);
+/// Boxed in for so long, it makes room; less than it waits at the least.
+constexpr Duration kMakesRoom = std::chrono::seconds(2);
 /// In a pocket no way is longer; and it is worth to go so much farther from the way out.
 constexpr double kPocket_m = 2.5, kRoom_m = 0.4;
 /// So many doors that stay shut are waited before.

@@ -179,7 +179,7 @@ TEST(Autopilot, MakesRoomForWhoStandsInTheOnlyWayOut) {
   AutopilotStatus status = pilot.turn();
   while (status.phase == AutopilotPhase::kActive && pilot.away_m(out) < 1.0) status = pilot.turn();
   ASSERT_EQ(status.phase, AutopilotPhase::kActive) << status.reason;
-  EXPECT_GT(pilot.now - shut, std::chrono::seconds(3)) << "who only passes by need not be made room for";
+  EXPECT_GT(pilot.now - shut, std::chrono::seconds(2)) << "who only passes by need not be made room for";
   for (int i = 0; i < 20; ++i) EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kActive);
   EXPECT_GT(pilot.away_m(out), 1.0) << "it stays out of the way";
   pilot.building.open('b');
