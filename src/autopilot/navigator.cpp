@@ -87,7 +87,8 @@ Navigator::Report Navigator::turn(Time now, const Pose2& map_T_robot, const Cost
   if (is_news && (follow.state == Following::kBlocked || follow.state == Following::kWaiting))
     return held(now, map_T_robot, follow.reason);
   held_up_since_.reset();
-  if (is_news && follow.state == Following::kArrived) return {State::kWaiting, last_plan_->reason};
+  if (near_since_ && is_news && follow.state == Following::kArrived)
+    return {State::kWaiting, last_plan_->reason};
   return {State::kDriving};
 }
 
