@@ -17,16 +17,16 @@ constexpr double kBetter = 0.9;
 constexpr double kStepsAside_s = 8.0;
 /// A route's end is not farther away when its follower has arrived there.
 constexpr double kAtEnd_m = 0.5;
-/// Nearer to a destination there is only the heading left to do; farther away it is not at it.
-constexpr double kThere_m = 0.05, kNearEnough_m = 0.3;
+/// So near to a destination there is hardly more than the heading left to do.
+constexpr double kThere_m = 0.05;
 /// Who passes by is gone sooner.
 constexpr Duration kHeldUp = std::chrono::seconds(1);
-/// Boxed in for so long, it makes room; less than it waits at the least.
+/// Boxed in for so long, it makes room: before the first patience is over.
 constexpr Duration kMakesRoom = std::chrono::seconds(2);
 /// In a pocket no way is longer; and it is worth to go so much farther from the way out.
 constexpr double kPocket_m = 2.5, kRoom_m = 0.4;
-/// So many doors that stay shut are waited before.
-constexpr std::size_t kMostDoors = 3;
+/// When a door stays shut, so many times more it goes and looks.
+constexpr int kMoreLooks = 2;
 /// To look whether the way is still shut, it is not worth to drive less far.
 constexpr double kWorthLooking_m = 1.0;
 /// The follower knows how fast it drives.
@@ -59,6 +59,7 @@ void Navigator::give_up() {
   had_route_ = was_free_ = approaches_ = looked_ = gave_way_ = false;
   aside_map_.reset();
   in_vain_.clear();
+  more_looks_ = 0;
 }
 
 void Navigator::plan_anew() {
@@ -74,7 +75,7 @@ Navigator::Report Navigator::turn(Time now, const Pose2& map_T_robot, const Cost
   const bool is_news = task_ && follow.task == task_->id;
   const bool arrives = is_news && is_arrival(now, map_T_robot, follow);
   if (arrives && approaches_) {
-    looked_ = looked_ || !aside_map_;
+    looked_ = true;
     aside_map_.reset();
     plan_anew();
   } else if (arrives) {
@@ -86,7 +87,7 @@ Navigator::Report Navigator::turn(Time now, const Pose2& map_T_robot, const Cost
   if (!task_) return without_route(now, map_T_robot, costmap, follow);
   if (is_news && (follow.state == Following::kBlocked || follow.state == Following::kWaiting))
     return held(now, map_T_robot, follow.reason);
-  held_up_since_.reset();
+  if (!near_since_) held_up_since_.reset();
   if (near_since_ && is_news && follow.state == Following::kArrived)
     return {State::kWaiting, last_plan_->reason};
   return {State::kDriving};
@@ -103,9 +104,17 @@ Navigator::Report Navigator::without_route(Time now, const Pose2& map_T_robot, c
 }
 
 Navigator::Report Navigator::held(Time now, const Pose2& map_T_robot, const std::string& reason) {
-  if (is_near_enough(now, map_T_robot)) return end(State::kArrived, reason);
+  const double off_m = (to_->point_map - map_T_robot.translation()).norm();
+  if (is_near_enough(now, off_m)) return end(State::kArrived, reason);
   if (is_patient(now, patience_s_)) return {State::kWaiting, reason};
-  return end(State::kNoRoute, reason);
+  if (approaches_) {
+    looked_ = true;  // from where it is
+    aside_map_.reset();
+    plan_anew();
+    return {State::kWaiting, reason};
+  }
+  const bool is_there = near_since_ && off_m <= planner_.goal_tolerance_m();
+  return end(is_there ? State::kArrived : State::kNoRoute, reason);
 }
 
 /// It is driving the last of its way, or stands at its end. Whoever stands there gets his time once, however
@@ -117,12 +126,11 @@ void Navigator::note_nearness(Time now, const FollowReport& follow) {
   if (is_near && (!near_since_ || now < *near_since_)) near_since_ = now;
 }
 
-/// Where something holds it that does not go away, it is at its destination when it is within its tolerance.
-bool Navigator::is_near_enough(Time now, const Pose2& map_T_robot) const {
+/// Where something holds it that does not go away, a place beside its destination will do.
+bool Navigator::is_near_enough(Time now, double off_m) const {
   const bool is_held = held_up_since_ && now - *held_up_since_ >= kHeldUp;
-  if (!is_held || !near_since_ || now - *near_since_ <= from_seconds(kStepsAside_s)) return false;
-  const double off_m = (to_->point_map - map_T_robot.translation()).norm();
-  return off_m > kThere_m && off_m <= kNearEnough_m;
+  const bool had_time = near_since_ && now - *near_since_ > from_seconds(kStepsAside_s);
+  return is_held && had_time && off_m > kThere_m && off_m <= planner_.goal_tolerance_m();
 }
 
 /// At the destination; or as near as it can come, and whoever stood there had time to go.
@@ -154,6 +162,7 @@ void Navigator::plan(Time now, const Pose2& map_T_robot, const Costmap& costmap,
       planner_.plan(costmap, {map_T_robot.translation(), to_->point_map, Unknown::kForbidden, in_vain_});
   was_free_ = was_free_ || plan.outcome == PlanOutcome::kFound;
   const bool is_shut = plan.outcome == PlanOutcome::kNoRoute;
+  if (!is_shut) aside_map_.reset();
   if (is_shut) plan = approach(std::move(plan), map_T_robot.translation(), costmap);
   const bool approaches = is_shut && plan.outcome != PlanOutcome::kNoRoute;
   const bool is_another = approaches != std::exchange(approaches_, approaches);
@@ -173,7 +182,7 @@ void Navigator::plan(Time now, const Pose2& map_T_robot, const Costmap& costmap,
 /// as is known; once.
 bool Navigator::is_worth_a_look(const Plan& plan, const Vector2& robot_map) const {
   if (!stops_ || looked_ || !plan.nearest_map || !(plan.is_cut_off || was_free_)) return false;
-  if (!in_vain_.empty() && !plan.is_before_door) return false;
+  if (more_looks_ > 0 && !plan.door_map) return false;
   return approaches_ || (*plan.nearest_map - robot_map).norm() >= kWorthLooking_m;
 }
 
@@ -197,35 +206,48 @@ bool Navigator::is_better(const Plan& plan, const Costmap& costmap, const Follow
 /// Whether what holds it up may go away still.
 bool Navigator::is_patient(Time now, double most_s) {
   if (!held_up_since_ || now < *held_up_since_) held_up_since_ = now;
-  const double patience_s = std::min({patience_s_, most_s, had_route_ ? patience_s_ : kFirstPatience_s});
+  const double patience_s =
+      std::min({patience_s_, most_s, had_route_ || gave_way_ ? patience_s_ : kFirstPatience_s});
   return now - *held_up_since_ <= from_seconds(patience_s);
 }
 
 /// In a pocket whose only way out somebody stands in, it goes to the far end: he may be waiting for it.
 bool Navigator::gives_way(Time now, const Pose2& map_T_robot, const Costmap& costmap,
                           const FollowReport& follow) {
-  if (!stops_ || gave_way_ || !last_plan_->is_cut_off || !last_plan_->nearest_map) return false;
+  if (!stops_ || gave_way_ || !last_plan_->door_map || planned_at_ != now) return false;
   if (!held_up_since_ || now - *held_up_since_ < kMakesRoom) return false;
+  const Vector2 robot_map = map_T_robot.translation(), door_map = *last_plan_->door_map;
+  const RouteLengths& lengths = planner_.reach(costmap, robot_map, kPocket_m);
+  if (!lengths.is_whole()) return false;
   gave_way_ = true;
-  const Vector2 shut_map = *last_plan_->nearest_map;
-  const RouteLengths& lengths = planner_.reach(costmap, map_T_robot.translation(), kPocket_m);
-  const auto aside_map = lengths.is_whole() ? lengths.farthest_reached(shut_map) : std::nullopt;
-  const double away_m = (map_T_robot.translation() - shut_map).norm();
-  if (!aside_map || (*aside_map - shut_map).norm() < away_m + kRoom_m) return false;
-  aside_map_ = aside_map;
-  held_up_since_.reset();
-  plan(now, map_T_robot, costmap, follow);
-  return task_.has_value();
+  aside_map_ = lengths.farthest_reached(door_map);
+  if (!aside_map_ || (*aside_map_ - door_map).norm() < (robot_map - door_map).norm() + kRoom_m) {
+    aside_map_.reset();
+    return false;
+  }
+  return sets_out_anew(now, map_T_robot, costmap, follow);
 }
 
-/// Where one door stayed shut it goes and looks at another, each once.
+/// Where one door stayed shut it looks at another; and at one that shut behind its back it looks first.
 bool Navigator::looks_elsewhere(Time now, const Pose2& map_T_robot, const Costmap& costmap,
                                 const FollowReport& follow) {
-  if (!stops_ || !last_plan_->is_before_door || in_vain_.size() >= kMostDoors) return false;
-  in_vain_.push_back(*last_plan_->nearest_map);
+  if (!stops_ || !last_plan_->door_map || more_looks_ >= kMoreLooks) return false;
+  const std::optional<Plan> before = last_plan_;
+  const Vector2& nearest_map = *before->nearest_map;
+  aside_map_.reset();
+  ++more_looks_;
+  if ((nearest_map - map_T_robot.translation()).norm() < kWorthLooking_m) in_vain_.push_back(nearest_map);
   looked_ = false;
-  held_up_since_.reset();
+  const bool has_task = sets_out_anew(now, map_T_robot, costmap, follow);
+  if (!has_task) last_plan_ = before;  // it shows the door that it stands before
+  return has_task;
+}
+
+bool Navigator::sets_out_anew(Time now, const Pose2& map_T_robot, const Costmap& costmap,
+                              const FollowReport& follow) {
   plan(now, map_T_robot, costmap, follow);
+  if (!task_) aside_map_.reset();
+  if (task_) held_up_since_.reset();
   return task_.has_value();
 }
 

@@ -81,11 +81,12 @@ class Navigator {
                        const FollowReport& follow);
   Report held(Time now, const Pose2& map_T_robot, const std::string& reason);
   void note_nearness(Time now, const FollowReport& follow);
-  bool is_near_enough(Time now, const Pose2& map_T_robot) const;
+  bool is_near_enough(Time now, double off_m) const;
   bool is_patient(Time now, double most_s);
   bool gives_way(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow);
   bool looks_elsewhere(Time now, const Pose2& map_T_robot, const Costmap& costmap,
                        const FollowReport& follow);
+  bool sets_out_anew(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow);
   Report end(State state, const std::string& reason);
 
   NavigationConfig config_;
@@ -102,6 +103,7 @@ class Navigator {
   bool gave_way_ = false;
   std::optional<Vector2> aside_map_;  ///< there it makes room for who stands in the only way out
   std::vector<Vector2> in_vain_;      ///< before which doors it waited
+  int more_looks_ = 0;                ///< that it took after the first
   std::optional<Plan> last_plan_;
   std::optional<Time> planned_at_;
   std::optional<Time> held_up_since_;

@@ -86,8 +86,10 @@ Plan PathPlanner::plan(const Costmap& costmap, const PlanRequest& request) {
   if (!found.last) {
     plan.nearest_map = best_point(costmap, found.end);
     plan.is_cut_off = !found.gave_up && !trouble_at(costmap, cells, goal);
-    const auto before = plan.is_cut_off ? before_what_shuts(costmap, request) : std::nullopt;
-    if ((plan.is_before_door = before.has_value())) plan.nearest_map = before;
+    if (const auto door = plan.is_cut_off ? what_shuts(costmap, request) : std::nullopt) {
+      plan.door_map = best_point(costmap, *door);
+      plan.nearest_map = before(costmap, *door);
+    }
     return plan;
   }
   plan.outcome = found.exactly ? PlanOutcome::kFound : PlanOutcome::kNearby;
@@ -163,9 +165,8 @@ PathPlanner::Found PathPlanner::search(const Costmap& costmap, const Ground& cel
   return found;
 }
 
-/// From there it is seen whether the way is free again, and it is as far from it as the last search got.
-std::optional<Vector2> PathPlanner::before_what_shuts(const Costmap& costmap,
-                                                      const PlanRequest& request) const {
+/// The last coarse cell before it that can be reached.
+std::optional<std::size_t> PathPlanner::what_shuts(const Costmap& costmap, const PlanRequest& request) const {
   const std::size_t aim = costmap.coarse().index_of(cell_at(request.goal_map, costmap.cell_size_m()));
   const auto is_reached = [&](std::size_t index) { return search_.reached(index); };
   const auto was_in_vain = [&](std::size_t index) {
@@ -174,15 +175,18 @@ std::optional<Vector2> PathPlanner::before_what_shuts(const Costmap& costmap,
     return std::any_of(request.in_vain_map.begin(), request.in_vain_map.end(),
                        [&](const Vector2& place) { return (place - at).norm() < kSameDoor_m; });
   };
-  const auto edge = ground_there_was(costmap.coarse(), {&aim, 1},
-                                     cells(Unknown::kForbidden).least_clearance(), is_reached, was_in_vain)
-                        .reached;
-  if (!edge) return std::nullopt;
-  const auto from_edge_m = [&](std::size_t at) {
-    return (best_point(costmap, at) - best_point(costmap, *edge)).norm();
+  return ground_there_was(costmap.coarse(), {&aim, 1}, cells(Unknown::kForbidden).least_clearance(),
+                          is_reached, was_in_vain)
+      .reached;
+}
+
+/// From there it is seen whether the way is free again, and it is as far from it as the last search got.
+Vector2 PathPlanner::before(const Costmap& costmap, std::size_t door) const {
+  const auto from_door_m = [&](std::size_t at) {
+    return (best_point(costmap, at) - best_point(costmap, door)).norm();
   };
-  std::size_t at = *edge;
-  while (search_.before(at) != at && from_edge_m(at) < kBefore_m) at = search_.before(at);
+  std::size_t at = door;
+  while (search_.before(at) != at && from_door_m(at) < kBefore_m) at = search_.before(at);
   return best_point(costmap, at);
 }
 

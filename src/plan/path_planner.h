@@ -35,10 +35,11 @@ struct Plan {
   double length_m = 0.0;
   std::string reason;       ///< why not to the goal, for people; empty when kFound
   bool is_cut_off = false;  ///< kNoRoute though the goal has room
-  /// Of kNoRoute: the reachable place before what shuts the way that there was once; where there was none,
-  /// the one nearest to the goal, if any.
+  /// Of kNoRoute: where the reachable ground ends before what shuts the way that there was once, as a door
+  /// does; none of those in `in_vain_map`.
+  std::optional<Vector2> door_map;
+  /// Of kNoRoute: a little before door_map; where there is none, what can be reached nearest to the goal.
   std::optional<Vector2> nearest_map;
-  bool is_before_door = false;  ///< that place is the former
 };
 
 /// Finds ways for a round robot. The way is searched on the coarse cells with the full margin, then pulled
@@ -53,6 +54,7 @@ class PathPlanner {
       : config_(config), robot_radius_m_(robot_radius_m) {}
 
   Plan plan(const Costmap& costmap, const PlanRequest& request);
+  double goal_tolerance_m() const { return config_.goal_tolerance_m; }
 
   /// The first leg of a polyline that does not keep the pruning margin. Of the way out of a tight place, up
   /// to way_out_reach_m() from the first point, only what is occupied counts, and what is forbidden unless
@@ -83,7 +85,8 @@ class PathPlanner {
                                                     const std::optional<Vector2>& goal);
   Found search(const Costmap& costmap, const Ground& cells, const Ground& legs, const Vector2& from,
                const Vector2& goal);
-  std::optional<Vector2> before_what_shuts(const Costmap& costmap, const PlanRequest& request) const;
+  std::optional<std::size_t> what_shuts(const Costmap& costmap, const PlanRequest& request) const;
+  Vector2 before(const Costmap& costmap, std::size_t door) const;
   std::vector<Vector2> centres_to(const Costmap& costmap, std::size_t end) const;
 
   PlannerConfig config_;

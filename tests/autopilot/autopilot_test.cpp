@@ -105,12 +105,10 @@ TEST(Autopilot, LooksAtTheOtherDoorWhenOneStaysShut) {
   pilot.turn(GoThere{{pilot.building.find('g')}});
   for (const char door : {'d', 'e'}) pilot.building.wall_up(door);
   pilot.building.know_all();
-  AutopilotStatus status = pilot.turn();
-  while (status.phase == AutopilotPhase::kActive && pilot.autopilot.task()) status = pilot.turn();
+  pilot.run_while([&] { return pilot.autopilot.task().has_value(); });
   EXPECT_GT(pilot.at.x, pilot.building.find('e').x());
   pilot.building.open('e');  // out of sight
-  while (status.phase == AutopilotPhase::kActive && pilot.away_m(pilot.building.find('e')) > 1.5)
-    status = pilot.turn();
+  const auto status = pilot.run_while([&] { return pilot.away_m(pilot.building.find('e')) > 1.5; });
   ASSERT_EQ(status.phase, AutopilotPhase::kActive) << status.reason;
   pilot.building.know_all();
   EXPECT_EQ(pilot.run().reason, "arrived");
@@ -143,48 +141,92 @@ TEST(Autopilot, SaysThatThereIsNoWayWhenAllDoorsStayShut) {
   pilot.building.know_all();
   const Time shut = pilot.now;
   double least_to_other_m = 100.0;
-  AutopilotStatus status = pilot.turn();
-  while (status.phase == AutopilotPhase::kActive) {
-    status = pilot.turn();
+  const AutopilotStatus status = pilot.run_while([&] {
     least_to_other_m = std::min(least_to_other_m, pilot.away_m(pilot.building.find('e')));
-  }
+    return true;
+  });
   EXPECT_EQ(status.phase, AutopilotPhase::kStopped);
   EXPECT_THAT(status.reason, HasSubstr("no route"));
   EXPECT_LT(least_to_other_m, 1.5);
   EXPECT_LT(pilot.now - shut, std::chrono::seconds(45)) << "each is waited for once";
 }
 
+/// It is boxed in until 'b' is opened.
+struct BoxedIn : Pilot {
+  explicit BoxedIn(const std::vector<std::string>& lines) : Pilot(lines) {
+    building.know_all();
+    glides = false;
+    turn(GoThere{{building.find('g')}});
+    turn();
+    glides = true;
+    building.wall_up('b');
+    building.know_all();
+    out = building.find('b');
+  }
+  void let_out() {
+    building.open('b');
+    building.know_all();
+  }
+  Vector2 out;
+};
+
+const std::vector<std::string> kPocket = {
+    "########################################",  //
+    "##########..............#..............#",  //
+    "##########..............#..............#",  //
+    "##.......b..............d.......g......#",  //
+    "##......sb..............d..............#",  //
+    "##.......b..............d..............#",  //
+    "##########..............#..............#",  //
+    "##########..............#..............#",  //
+    "########################################",  //
+};
+
 /// Who stands there goes on when the robot is out of the way.
 TEST(Autopilot, MakesRoomForWhoStandsInTheOnlyWayOut) {
-  Pilot pilot({
+  BoxedIn pilot(kPocket);
+  const Time shut = pilot.now;
+  const auto status = pilot.run_while([&] { return pilot.away_m(pilot.out) < 1.0; });
+  ASSERT_EQ(status.phase, AutopilotPhase::kActive) << status.reason;
+  EXPECT_GT(pilot.now - shut, std::chrono::seconds(2)) << "who only passes by need not be made room for";
+  for (int i = 0; i < 60; ++i) EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kActive);
+  EXPECT_GT(pilot.away_m(pilot.out), 1.0) << "it stays out of the way";
+  pilot.let_out();
+  EXPECT_EQ(pilot.run().reason, "arrived");
+}
+
+TEST(Autopilot, DoesNotMakeRoomAnyMoreWhenTheWayIsFree) {
+  BoxedIn pilot(kPocket);
+  pilot.run_while([&] { return pilot.away_m(pilot.out) < 0.6; });
+  pilot.let_out();
+  pilot.run_while([&] { return pilot.at.x < pilot.out.x() + 1.5; });
+  pilot.building.wall_up('d');
+  pilot.building.know_all();
+  double least_x = pilot.at.x;
+  const auto status = pilot.run_while([&] {
+    least_x = std::min(least_x, pilot.at.x);
+    return true;
+  });
+  EXPECT_THAT(status.reason, HasSubstr("no route"));
+  EXPECT_GT(least_x, pilot.out.x() + 1.0) << "the pocket was long left";
+}
+
+TEST(Autopilot, DoesNotMakeRoomTowardsTheWayOut) {
+  BoxedIn pilot({
       "##############################",  //
       "##########...................#",  //
       "##########...................#",  //
-      "##.......b...............g...#",  //
-      "##......sb...................#",  //
-      "##.......b...................#",  //
+      "####.....b...............g...#",  //
+      "####.s...b...................#",  //
+      "####.....b...................#",  //
       "##########...................#",  //
       "##########...................#",  //
       "##############################",  //
   });
-  pilot.building.know_all();
-  pilot.turn(GoThere{{pilot.building.find('g')}});
-  pilot.glides = false;
-  pilot.turn();
-  pilot.glides = true;
-  pilot.building.wall_up('b');
-  pilot.building.know_all();
-  const Vector2 out = pilot.building.find('b');
-  const Time shut = pilot.now;
-  AutopilotStatus status = pilot.turn();
-  while (status.phase == AutopilotPhase::kActive && pilot.away_m(out) < 1.0) status = pilot.turn();
-  ASSERT_EQ(status.phase, AutopilotPhase::kActive) << status.reason;
-  EXPECT_GT(pilot.now - shut, std::chrono::seconds(2)) << "who only passes by need not be made room for";
-  for (int i = 0; i < 20; ++i) EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kActive);
-  EXPECT_GT(pilot.away_m(out), 1.0) << "it stays out of the way";
-  pilot.building.open('b');
-  pilot.building.know_all();
-  EXPECT_EQ(pilot.run().reason, "arrived");
+  const double away_m = pilot.away_m(pilot.out);
+  const auto status = pilot.run_while([&] { return pilot.away_m(pilot.out) > away_m - 0.1; });
+  EXPECT_EQ(status.phase, AutopilotPhase::kStopped) << "it drove to where somebody stands";
+  EXPECT_THAT(status.reason, HasSubstr("no route"));
 }
 
 /// Beside its destination something holds it, though its map says that there is room.
@@ -199,7 +241,8 @@ TEST(Autopilot, ContentsItselfWithAPlaceWhereItIsHeldBesideItsDestination) {
   do {
     pilot.follow.state = Following::kBlocked;
     pilot.follow.reason = "something is in the way";
-    if ((pilot.now - held) % std::chrono::seconds(4) == Duration(0)) pilot.follow.state = Following::kDriving;
+    const bool stirs = (pilot.now - held) % std::chrono::seconds(2) >= std::chrono::milliseconds(400);
+    if (stirs) pilot.follow.state = Following::kDriving;
     status = pilot.turn();
   } while (status.phase == AutopilotPhase::kActive && pilot.now - held < std::chrono::seconds(60));
   EXPECT_EQ(status.reason, "arrived, as near as it can come: something is in the way");

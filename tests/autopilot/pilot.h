@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -101,6 +102,14 @@ struct Pilot {
     for (std::size_t i = 1; i < follow.route_map.size(); ++i)
       follow.remaining_m += (follow.route_map[i] - follow.route_map[i - 1]).norm();
     if (left.empty()) follow.state = Following::kArrived;
+  }
+
+  /// As long as that, and it is at something.
+  AutopilotStatus run_while(const std::function<bool()>& goes_on, int most_turns = 1000) {
+    AutopilotStatus status = turn();
+    while (status.phase == AutopilotPhase::kActive && goes_on() && --most_turns > 0) status = turn();
+    EXPECT_GT(most_turns, 0) << "it never ends: " << status.reason;
+    return status;
   }
 
   /// Until it drives no more.

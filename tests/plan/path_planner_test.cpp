@@ -401,15 +401,15 @@ TEST(PathPlanner, NamesAnotherDoorWhenBeforeOneItWasInVain) {
   PathPlanner planner({}, kRadius_m);
   PlanRequest request{{1, 3}, {5, 1.5}};
   const Plan one = planner.plan(map, request);
-  ASSERT_TRUE(one.nearest_map && one.is_before_door);
+  ASSERT_TRUE(one.nearest_map && one.door_map);
   EXPECT_LT(one.nearest_map->y(), 2.0) << "that nearer to the goal";
   request.in_vain_map.push_back(*one.nearest_map);
   const Plan other = planner.plan(map, request);
-  ASSERT_TRUE(other.nearest_map && other.is_before_door);
+  ASSERT_TRUE(other.nearest_map && other.door_map);
   EXPECT_GT(other.nearest_map->y(), 4.0);
   EXPECT_LT(other.nearest_map->x(), 3.0);
   request.in_vain_map.push_back(*other.nearest_map);
-  EXPECT_FALSE(planner.plan(map, request).is_before_door);
+  EXPECT_FALSE(planner.plan(map, request).door_map);
   EXPECT_TRUE(planner.plan(map, request).nearest_map);
 }
 
