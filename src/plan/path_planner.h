@@ -20,7 +20,7 @@ struct PlanRequest {
   Vector2 start_map;
   Vector2 goal_map;
   Unknown unknown = Unknown::kForbidden;
-  std::vector<Vector2> in_vain_map = {};  ///< before what shuts the way there it was waited
+  std::vector<Vector2> in_vain_map = {};  ///< nearest_map of plans before: there it waited
 };
 
 enum class PlanOutcome {
