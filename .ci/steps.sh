@@ -12,7 +12,7 @@ CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
 CTEST_PARALLEL_LEVEL=$CMAKE_BUILD_PARALLEL_LEVEL
 # What was compiled in one checkout serves in another, whatever language the compiler speaks there.
 CCACHE_BASEDIR=$PWD
-CCACHE_SLOPPINESS=locale
+CCACHE_SLOPPINESS='locale'
 CCACHE_NOHASHDIR=1
 CCACHE_IGNOREOPTIONS='-ffile-prefix-map=*'
 export CMAKE_BUILD_PARALLEL_LEVEL CTEST_PARALLEL_LEVEL CCACHE_BASEDIR CCACHE_SLOPPINESS CCACHE_NOHASHDIR CCACHE_IGNOREOPTIONS
@@ -122,19 +122,22 @@ step_asan() {
   build/asan/src/dynslam replay "$recording" --set slam.trusted_range_m=30 --out "$out" --quiet
 }
 
-# An hour of a robot's life, step by step, and half an hour of attacks on its server: memory must not grow. With
-# sanitizers it is faults and leaks that are looked for, as they keep and pad what they hand out; what the program itself
-# holds is watched without, in the same half hour.
+# Hours of robots' lives, step by step, and half an hour of attacks on a server: memory must not grow. With sanitizers it
+# is faults and leaks that are looked for, as they keep and pad what they hand out; what the program itself holds is
+# watched without.
 prepare_soak() {
   need_to_build
   quietly cmake --preset asan
   quietly cmake --build --preset asan --target dynslam_soak dynslam
+  quietly cmake --preset release -DDYNSLAM_BENCH=OFF
+  quietly cmake --build --preset release --target dynslam_soak
   need_npm
   toolchain/host.sh build
 }
 step_soak() {
   # How many local maps it takes to know a flat settles within half an hour, and goes up and down a little after that.
-  build/asan/tests/tools/soak/dynslam_soak --minutes 60 --most-growth 10
+  build/release/tests/tools/soak/dynslam_soak --minutes 60 --drives 5 --most-growth 10
+  build/asan/tests/tools/soak/dynslam_soak --minutes 20 --most-growth 50
   local seconds=${SOAK_SECONDS:-1800} sanitized
   DYNSLAM=$PWD/build/asan/src/dynslam ASAN_OPTIONS=quarantine_size_mb=16 \
     node tests/web/server/soak.mjs "$seconds" 1024 >"$logs/soak_asan" 2>&1 &
