@@ -22,6 +22,9 @@ constexpr Duration kWayFree = std::chrono::seconds(20);
 constexpr double kSeenFrom_m = 0.8;
 /// There is ground so near to what is to be seen.
 constexpr double kBeside_m = 0.4;
+/// So far from a door it is out of the way, so long at a time.
+constexpr double kAside_m = 1.2, kFarAside_m = 1.8;
+constexpr Duration kTakesTurns = std::chrono::seconds(12);
 /// Routes are looked for within so far of the robot first.
 constexpr double kLooksFirst_m = 12.0;
 
@@ -45,7 +48,8 @@ void Explorer::begin() {
   aim_.reset();
   places_.clear();
   chosen_at_.reset();
-  shut_.clear();
+  door_.reset();
+  before_door_since_.reset();
   seems_over_since_.reset();
   judged_at_.reset();
   hope_left_ = looks_left_ = from_seconds(config_.door_patience_s);
@@ -71,7 +75,11 @@ bool Explorer::choose(Time now, const Vector2& robot_map, const Costmap& costmap
   chosen_at_ = now;
   find_places(now, robot_map, costmap, planner);
   if (holds_aim(now)) return false;
-  if (!has_frontier()) wait_well(robot_map);
+  if (has_frontier()) {
+    before_door_since_.reset();
+  } else {
+    wait_well(now, robot_map);
+  }
   if (places_.empty()) {
     aim_.reset();
     return false;
@@ -129,32 +137,39 @@ void Explorer::find_places(Time now, const Vector2& robot_map, const Costmap& co
   std::vector<Frontier> frontiers = frontier_map_.frontiers(last_look_);
   for (Frontier& f : frontiers) f.beyond_m2 = frontier_map_.beyond_m2(f);
   places_ = exploration_.places(now, robot_map, frontiers, visits_, map_, reach, seemed_over_);
-  shut_.clear();
-  if (std::isinf(looked_m)) find_shut(frontiers, lengths);
+  door_.reset();
+  if (std::isinf(looked_m)) find_door(frontiers, lengths);
   judge(now);
 }
 
-void Explorer::find_shut(const std::vector<Frontier>& frontiers, const RouteLengths& lengths) {
+void Explorer::find_door(const std::vector<Frontier>& frontiers, const RouteLengths& lengths) {
   for (const Frontier& f : frontiers) {
     if (f.extent_m < kDoor_m || exploration_.was_looked_at(f.middle_map)) continue;
     if (f.is_rest || exploration_.is_nook(f) || lengths.nearest_reached(f.middle_map, kSeenFrom_m)) continue;
     const auto before_it = lengths.before_what_shuts(f.middle_map, kBeside_m);
     if (!before_it) continue;
-    shut_.push_back({PlaceKind::kOld, f.middle_map, *before_it, lengths.length_m(*before_it).value_or(0.0)});
+    const double route_m = lengths.length_m(*before_it).value_or(0.0);
+    if (!door_ || route_m < door_->route_m) door_ = Place{PlaceKind::kOld, f.middle_map, *before_it, route_m};
   }
+  if (door_) aside_map_ = lengths.reached_away_from(door_->stand_map, kAside_m, kFarAside_m);
 }
 
 /// Where nothing new can be reached: before a door that was shut, until that is given up; else it stands
-/// still to make sure, unless it goes on for ever.
-void Explorer::wait_well(const Vector2& robot_map) {
-  const auto nearest = std::min_element(shut_.begin(), shut_.end(),
-                                        [](const Place& a, const Place& b) { return a.route_m < b.route_m; });
-  if (nearest == shut_.end() || over_) {
+/// still to make sure, unless it goes on for ever. Before the door it sees best whether that opens, and is in
+/// the way: it takes turns.
+void Explorer::wait_well(Time now, const Vector2& robot_map) {
+  if (!door_ || over_) {
     if (!goes_on()) places_.clear();
-  } else {
-    places_ = {*nearest};
-    if ((nearest->stand_map - robot_map).norm() < kSamePlace_m) places_.clear();
+    return;
   }
+  Place wait = *door_;
+  if (!before_door_since_ || now < *before_door_since_) before_door_since_ = now;
+  const bool makes_room = (now - *before_door_since_) / kTakesTurns % 2 == 1;
+  if (makes_room && aside_map_) wait.stand_map = *aside_map_;
+  const bool is_there = (wait.stand_map - robot_map).norm() < kSamePlace_m;
+  if (!is_there && !makes_room) before_door_since_ = now;
+  places_ = {wait};
+  if (is_there) places_.clear();
 }
 
 /// It is over when for some time there was nothing to go to for the first time. Whoever stands in a doorway

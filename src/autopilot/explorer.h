@@ -40,16 +40,16 @@ class Explorer {
   /// Nothing that can be reached is left to be seen for the first time.
   bool is_over() const { return over_; }
   /// A door was shut before something that is left to be seen.
-  bool waits_for_door() const { return !shut_.empty(); }
+  bool waits_for_door() const { return door_.has_value(); }
 
  private:
   bool goes_on() const { return config_.when_explored == "revisit"; }
   bool is_seen(const Place& place) const;
   bool holds_aim(Time now);
   void find_places(Time now, const Vector2& robot_map, const Costmap& costmap, PathPlanner& planner);
-  void wait_well(const Vector2& robot_map);
+  void wait_well(Time now, const Vector2& robot_map);
   bool has_frontier() const { return !places_.empty() && places_.front().kind == PlaceKind::kFrontier; }
-  void find_shut(const std::vector<Frontier>& frontiers, const RouteLengths& lengths);
+  void find_door(const std::vector<Frontier>& frontiers, const RouteLengths& lengths);
   void judge(Time now);
 
   AutopilotConfig config_;
@@ -62,7 +62,9 @@ class Explorer {
   std::optional<Time> aim_seen_since_;  ///< what was to be seen there is no frontier any more
   std::vector<Place> places_;
   std::optional<Time> chosen_at_;
-  std::vector<Place> shut_;  ///< there was a way to these and there is none any more: where to wait for it
+  std::optional<Place> door_;  ///< there was a way to that and there is none any more: where to wait for it
+  std::optional<Vector2> aside_map_;       ///< there it is out of the way of a door, or of who comes through
+  std::optional<Time> before_door_since_;  ///< it was there first
   std::optional<Time> seems_over_since_, judged_at_;
   Duration hope_left_{};   ///< that a door opens
   Duration looks_left_{};  ///< for driving to doors for the first time

@@ -25,6 +25,10 @@ constexpr Duration kHeldUp = std::chrono::seconds(1);
 constexpr Duration kMakesRoom = std::chrono::seconds(2);
 /// In a pocket no way is longer; and it is worth to go so much farther from the way out.
 constexpr double kPocket_m = 2.5, kRoom_m = 0.4;
+/// So near to a door it keeps the leaf from moving.
+constexpr double kDoorway_m = 0.8;
+/// Farther away it is not before that door.
+constexpr double kBesideDoor_m = 2.0;
 /// When a door stays shut, so many times more it goes and looks.
 constexpr int kMoreLooks = 2;
 /// To look whether the way is still shut, it is not worth to drive less far.
@@ -56,7 +60,7 @@ void Navigator::give_up() {
   planned_at_.reset();
   held_up_since_.reset();
   near_since_.reset();
-  had_route_ = was_free_ = approaches_ = looked_ = gave_way_ = false;
+  had_route_ = was_free_ = approaches_ = looked_ = came_up_ = gave_way_ = false;
   aside_map_.reset();
   in_vain_.clear();
   more_looks_ = 0;
@@ -97,8 +101,13 @@ Navigator::Report Navigator::without_route(Time now, const Pose2& map_T_robot, c
                                            const FollowReport& follow) {
   if (is_hopeless(costmap, to_->point_map)) return end(State::kNoRoute, last_plan_->reason);
   if (gives_way(now, map_T_robot, costmap, follow)) return {State::kDriving};
-  if (is_patient(now, last_plan_->is_cut_off ? patience_s_ : kStepsAside_s))
-    return {State::kWaiting, last_plan_->reason};
+  const bool may_come_up = this->may_come_up(map_T_robot.translation(), costmap);
+  const bool is_for_part = may_come_up || !last_plan_->is_cut_off;
+  const bool waits =
+      (!may_come_up || last_plan_->sees_door) &&
+      is_patient(now, is_for_part ? kStepsAside_s : patience_s_ - (came_up_ ? kStepsAside_s : 0.0));
+  if (waits) return {State::kWaiting, last_plan_->reason};
+  if (may_come_up && comes_up(now, map_T_robot, costmap, follow)) return {State::kDriving};
   if (looks_elsewhere(now, map_T_robot, costmap, follow)) return {State::kDriving};
   return end(State::kNoRoute, last_plan_->reason);
 }
@@ -183,7 +192,9 @@ void Navigator::plan(Time now, const Pose2& map_T_robot, const Costmap& costmap,
 bool Navigator::is_worth_a_look(const Plan& plan, const Vector2& robot_map) const {
   if (!stops_ || looked_ || !plan.nearest_map || !(plan.is_cut_off || was_free_)) return false;
   if (more_looks_ > 0 && !plan.door_map) return false;
-  return approaches_ || (*plan.nearest_map - robot_map).norm() >= kWorthLooking_m;
+  if (approaches_) return true;
+  if (plan.door_map) return !plan.sees_door || (*plan.door_map - robot_map).norm() > kBesideDoor_m;
+  return (*plan.nearest_map - robot_map).norm() >= kWorthLooking_m;
 }
 
 /// Where to in place of the destination.
@@ -211,20 +222,38 @@ bool Navigator::is_patient(Time now, double most_s) {
   return now - *held_up_since_ <= from_seconds(patience_s);
 }
 
-/// In a pocket whose only way out somebody stands in, it goes to the far end: he may be waiting for it.
+/// In a pocket whose only way out somebody stands in, it goes to the far end: he may be waiting for it. And
+/// it does not stay in a doorway, where a door could neither open nor close.
 bool Navigator::gives_way(Time now, const Pose2& map_T_robot, const Costmap& costmap,
                           const FollowReport& follow) {
   if (!stops_ || gave_way_ || !last_plan_->door_map || planned_at_ != now) return false;
   if (!held_up_since_ || now - *held_up_since_ < kMakesRoom) return false;
   const Vector2 robot_map = map_T_robot.translation(), door_map = *last_plan_->door_map;
+  const double from_door_m = (robot_map - door_map).norm();
   const RouteLengths& lengths = planner_.reach(costmap, robot_map, kPocket_m);
-  if (!lengths.is_whole()) return false;
+  if (!lengths.is_whole() && (came_up_ || from_door_m > kDoorway_m)) return false;
   gave_way_ = true;
-  aside_map_ = lengths.farthest_reached(door_map);
-  if (!aside_map_ || (*aside_map_ - door_map).norm() < (robot_map - door_map).norm() + kRoom_m) {
+  aside_map_ = lengths.is_whole() ? lengths.farthest_reached(door_map) : last_plan_->nearest_map;
+  if (!aside_map_ || (*aside_map_ - door_map).norm() < from_door_m + kRoom_m) {
     aside_map_.reset();
     return false;
   }
+  return sets_out_anew(now, map_T_robot, costmap, follow);
+}
+
+/// Close to the door that it waits before, once; not in a pocket whose way out it sees to be taken.
+bool Navigator::may_come_up(const Vector2& robot_map, const Costmap& costmap) const {
+  if (!stops_ || came_up_ || !last_plan_->door_map) return false;
+  const double from_door_m = (*last_plan_->door_map - robot_map).norm();
+  if (from_door_m < kRoom_m || from_door_m > kBesideDoor_m) return false;
+  return !last_plan_->sees_door || !planner_.reach(costmap, robot_map, kPocket_m).is_whole();
+}
+
+/// From a little before it a door that stands open is not always seen to be: its leaf may hide the doorway.
+bool Navigator::comes_up(Time now, const Pose2& map_T_robot, const Costmap& costmap,
+                         const FollowReport& follow) {
+  came_up_ = true;
+  aside_map_ = last_plan_->door_map;
   return sets_out_anew(now, map_T_robot, costmap, follow);
 }
 
@@ -233,11 +262,11 @@ bool Navigator::looks_elsewhere(Time now, const Pose2& map_T_robot, const Costma
                                 const FollowReport& follow) {
   if (!stops_ || !last_plan_->door_map || more_looks_ >= kMoreLooks) return false;
   const std::optional<Plan> before = last_plan_;
-  const Vector2& nearest_map = *before->nearest_map;
   aside_map_.reset();
   ++more_looks_;
-  if ((nearest_map - map_T_robot.translation()).norm() < kWorthLooking_m) in_vain_.push_back(nearest_map);
-  looked_ = false;
+  const bool is_there = (*before->door_map - map_T_robot.translation()).norm() < kBesideDoor_m;
+  if (is_there) in_vain_.push_back(*before->door_map);
+  looked_ = came_up_ = false;
   const bool has_task = sets_out_anew(now, map_T_robot, costmap, follow);
   if (!has_task) last_plan_ = before;  // it shows the door that it stands before
   return has_task;

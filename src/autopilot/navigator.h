@@ -84,6 +84,8 @@ class Navigator {
   bool is_near_enough(Time now, double off_m) const;
   bool is_patient(Time now, double most_s);
   bool gives_way(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow);
+  bool may_come_up(const Vector2& robot_map, const Costmap& costmap) const;
+  bool comes_up(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow);
   bool looks_elsewhere(Time now, const Pose2& map_T_robot, const Costmap& costmap,
                        const FollowReport& follow);
   bool sets_out_anew(Time now, const Pose2& map_T_robot, const Costmap& costmap, const FollowReport& follow);
@@ -100,6 +102,7 @@ class Navigator {
   std::optional<Time> near_since_;  ///< it is nearly at the end of its way
   bool approaches_ = false;         ///< the way that it knows of is shut: it drives there to look again
   bool looked_ = false;             ///< it did
+  bool came_up_ = false;            ///< close to the door that it waits before
   bool gave_way_ = false;
   std::optional<Vector2> aside_map_;  ///< there it makes room for who stands in the only way out
   std::vector<Vector2> in_vain_;      ///< before which doors it waited

@@ -14,9 +14,11 @@ namespace dynslam {
 namespace {
 
 /// Room of so few coarse cells is not somewhere to be: a square metre, as behind a door that stands open.
-constexpr int kPocket = 150;
-/// So far before a door that is shut its leaf can open.
-constexpr double kBefore_m = 0.6;
+constexpr std::size_t kPocket = 150;
+/// So far before a door that is shut its leaf can open: a metre is as wide as they are.
+constexpr double kBefore_m = 1.2, kFarBefore_m = 1.6;
+/// So many metres of way are worth a metre more, to the leaf or to the walls.
+constexpr double kTooNear = 10.0;
 /// All that is reached of the ground before one door is nearer to the place before it.
 constexpr double kSameDoor_m = 1.2;
 
@@ -56,6 +58,12 @@ std::optional<std::string> trouble_at(const Costmap& costmap, const Ground& grou
   return std::nullopt;
 }
 
+bool is_in_sight(const Costmap& costmap, const Vector2& from, const Vector2& to) {
+  bool free = true;
+  walk_ray(from, to, costmap.cell_size_m(), [&](CellIndex c) { free = free && !costmap.is_occupied(c); });
+  return free;
+}
+
 /// The farthest point on the way from a free place to one that is not.
 Vector2 as_far_as_free(const Costmap& costmap, const Ground& legs, const Vector2& from, const Vector2& to) {
   const double length_m = (to - from).norm();
@@ -88,7 +96,8 @@ Plan PathPlanner::plan(const Costmap& costmap, const PlanRequest& request) {
     plan.is_cut_off = !found.gave_up && !trouble_at(costmap, cells, goal);
     if (const auto door = plan.is_cut_off ? what_shuts(costmap, request) : std::nullopt) {
       plan.door_map = best_point(costmap, *door);
-      plan.nearest_map = before(costmap, *door);
+      plan.sees_door = is_in_sight(costmap, start, *plan.door_map);
+      plan.nearest_map = before(costmap, start, *door);
     }
     return plan;
   }
@@ -103,7 +112,8 @@ Plan PathPlanner::plan(const Costmap& costmap, const PlanRequest& request) {
 }
 
 /// From the start to where the robot has room. Room that nothing leads out of, as between the legs of a chair
-/// that it got under, is left as well, unless the goal is there.
+/// that it got under, or in a passage so narrow that it has room only here and there, is left as well, unless
+/// the goal is there.
 std::optional<std::vector<Vector2>> PathPlanner::into_the_open(const Costmap& costmap, const Ground& cells,
                                                                const Ground& legs, const Vector2& start,
                                                                const std::optional<Vector2>& goal) {
@@ -112,16 +122,28 @@ std::optional<std::vector<Vector2>> PathPlanner::into_the_open(const Costmap& co
   const auto coarse = [&](const Vector2& p) {
     return costmap.coarse().index_of(cell_at(p, costmap.cell_size_m()));
   };
-  search_.begin(costmap, cells, legs, coarse(out->back()), std::nullopt);
-  int expansions = 0;
+  std::vector<std::size_t> pockets;
+  const auto leads_on = [&](std::size_t from) {
+    if (std::find(pockets.begin(), pockets.end(), from) != pockets.end()) return false;
+    const bool is_pocket = this->is_pocket(costmap, cells, legs, from, &pockets);
+    return !is_pocket || (goal && costmap.contains(*goal) && search_.reached(coarse(*goal)));
+  };
+  if (leads_on(coarse(out->back()))) return out;
+  const auto beyond = way_out_to(leads_on, costmap, cells, start);
+  return beyond ? beyond : out;
+}
+
+/// Whether nothing leads out of the little room there is at that coarse cell; adds the cells to `pockets`.
+bool PathPlanner::is_pocket(const Costmap& costmap, const Ground& cells, const Ground& legs, std::size_t from,
+                            std::vector<std::size_t>* pockets) {
+  search_.begin(costmap, cells, legs, from, std::nullopt);
+  std::size_t size = 0;
   while (const auto settled = search_.next()) {
-    if (++expansions > kPocket) return out;
+    if (++size > kPocket) return false;
+    if (pockets) pockets->push_back(settled->index);
     search_.expand(*settled);
   }
-  if (goal && costmap.contains(*goal) && search_.reached(coarse(*goal))) return out;
-  const auto beyond =
-      way_out_of([&](std::size_t index) { return search_.reached(index); }, costmap, cells, start);
-  return beyond ? beyond : out;
+  return true;
 }
 
 /// Where the goal has no room, the search goes on a little after it came near: the first place is not the
@@ -180,14 +202,33 @@ std::optional<std::size_t> PathPlanner::what_shuts(const Costmap& costmap, const
       .reached;
 }
 
-/// From there it is seen whether the way is free again, and it is as far from it as the last search got.
-Vector2 PathPlanner::before(const Costmap& costmap, std::size_t door) const {
-  const auto from_door_m = [&](std::size_t at) {
-    return (best_point(costmap, at) - best_point(costmap, door)).norm();
-  };
-  std::size_t at = door;
-  while (search_.before(at) != at && from_door_m(at) < kBefore_m) at = search_.before(at);
-  return best_point(costmap, at);
+/// Of what the last search reached, the place nearest to the start from which it is seen whether the way is
+/// free again, past a leaf that opened as well, and which leaves the leaf its room and has some itself; or
+/// what comes nearest to that.
+Vector2 PathPlanner::before(const Costmap& costmap, const Vector2& start, std::size_t door) const {
+  const CoarseGrid& grid = costmap.coarse();
+  const Vector2 door_map = best_point(costmap, door);
+  const double coarse_m = kCoarseSide * costmap.cell_size_m();
+  const int most = static_cast<int>(kFarBefore_m / coarse_m);
+  Vector2 best = door_map;
+  double least = std::numeric_limits<double>::infinity();
+  for (int dy = -most; dy <= most; ++dy) {
+    for (int dx = -most; dx <= most; ++dx) {
+      const Vector2 near_it = door_map + coarse_m * Vector2(dx, dy);
+      if (!costmap.contains(near_it)) continue;
+      const std::size_t at = grid.index_of(cell_at(near_it, costmap.cell_size_m()));
+      if (!search_.reached(at)) continue;
+      const Vector2 place = best_point(costmap, at);
+      const double from_door_m = (place - door_map).norm();
+      const double lacking_m = std::max(0.0, kBefore_m - from_door_m) +
+                               std::max(0.0, config_.comfort_m - costmap.clearance_m(place));
+      const double cost = (place - start).norm() + kTooNear * lacking_m;
+      if (from_door_m > kFarBefore_m || cost >= least || !is_in_sight(costmap, place, door_map)) continue;
+      least = cost;
+      best = place;
+    }
+  }
+  return best;
 }
 
 /// The roomiest cells along the way that was found.
@@ -202,17 +243,19 @@ std::vector<Vector2> PathPlanner::centres_to(const Costmap& costmap, std::size_t
 }
 
 std::optional<std::size_t> PathPlanner::first_blocked_leg(const Costmap& costmap,
-                                                          std::span<const Vector2> route_map) const {
+                                                          std::span<const Vector2> route_map) {
+  if (route_map.size() < 2) return std::nullopt;
+  if (!costmap.contains(route_map.front())) return 0;
   const Ground legs = this->legs(Unknown::kDear);
+  const CellIndex first = cell_at(route_map.front(), costmap.cell_size_m());
+  const double reach_m = way_out_reach_m(costmap, route_map.front());
+  const bool leaves_forbidden = costmap.is_forbidden(first);
+  const bool leaves_pocket = is_pocket(costmap, cells(Unknown::kForbidden), this->legs(Unknown::kForbidden),
+                                       costmap.coarse().index_of(first), nullptr);
   bool on_way_out = true;
-  const double reach_m = route_map.empty() || !costmap.contains(route_map.front())
-                             ? 0.0
-                             : way_out_reach_m(costmap, route_map.front());
-  const bool leaves_forbidden =
-      reach_m > 0.0 && costmap.is_forbidden(cell_at(route_map.front(), costmap.cell_size_m()));
   const auto is_passable = [&](CellIndex c) {
     if (costmap.clearance_steps(c) >= legs.least_clearance()) {
-      on_way_out = false;
+      on_way_out = leaves_pocket;
       return true;
     }
     const Vector2 from_start = cell_centre(c, costmap.cell_size_m()) - route_map.front();
@@ -223,7 +266,7 @@ std::optional<std::size_t> PathPlanner::first_blocked_leg(const Costmap& costmap
     const Vector2 &from = route_map[i], &to = route_map[i + 1];
     if (!costmap.contains(from) || !costmap.contains(to)) return i;
     if (leg_cost(costmap, legs, from, to)) {
-      on_way_out = false;
+      on_way_out = leaves_pocket;
       continue;
     }
     bool free = on_way_out;

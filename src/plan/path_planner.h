@@ -20,7 +20,7 @@ struct PlanRequest {
   Vector2 start_map;
   Vector2 goal_map;
   Unknown unknown = Unknown::kForbidden;
-  std::vector<Vector2> in_vain_map = {};  ///< nearest_map of plans before: there it waited
+  std::vector<Vector2> in_vain_map = {};  ///< door_map of plans before: there it waited
 };
 
 enum class PlanOutcome {
@@ -38,7 +38,9 @@ struct Plan {
   /// Of kNoRoute: where the reachable ground ends before what shuts the way that there was once, as a door
   /// does; none of those in `in_vain_map`.
   std::optional<Vector2> door_map;
-  /// Of kNoRoute: a little before door_map; where there is none, what can be reached nearest to the goal.
+  bool sees_door = false;  ///< nothing stands between the start and door_map
+  /// Of kNoRoute: where to wait in sight of door_map; where there is none, what can be reached nearest to the
+  /// goal.
   std::optional<Vector2> nearest_map;
 };
 
@@ -58,9 +60,8 @@ class PathPlanner {
 
   /// The first leg of a polyline that does not keep the pruning margin. Of the way out of a tight place, up
   /// to way_out_reach_m() from the first point, only what is occupied counts, and what is forbidden unless
-  /// the first point is so. What is unknown is left to the caller.
-  std::optional<std::size_t> first_blocked_leg(const Costmap& costmap,
-                                               std::span<const Vector2> route_map) const;
+  /// the first point is so. What is unknown is left to the caller. What reach() gave is good no more.
+  std::optional<std::size_t> first_blocked_leg(const Costmap& costmap, std::span<const Vector2> route_map);
 
   /// How far it is from `start` to everywhere, over known ground, and no farther than `most_m`. Good until
   /// the next call.
@@ -83,10 +84,12 @@ class PathPlanner {
   std::optional<std::vector<Vector2>> into_the_open(const Costmap& costmap, const Ground& cells,
                                                     const Ground& legs, const Vector2& start,
                                                     const std::optional<Vector2>& goal);
+  bool is_pocket(const Costmap& costmap, const Ground& cells, const Ground& legs, std::size_t from,
+                 std::vector<std::size_t>* pockets);
   Found search(const Costmap& costmap, const Ground& cells, const Ground& legs, const Vector2& from,
                const Vector2& goal);
   std::optional<std::size_t> what_shuts(const Costmap& costmap, const PlanRequest& request) const;
-  Vector2 before(const Costmap& costmap, std::size_t door) const;
+  Vector2 before(const Costmap& costmap, const Vector2& start, std::size_t door) const;
   std::vector<Vector2> centres_to(const Costmap& costmap, std::size_t end) const;
 
   PlannerConfig config_;

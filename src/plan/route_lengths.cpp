@@ -71,6 +71,21 @@ std::optional<Vector2> RouteLengths::farthest_reached(const Vector2& point_map) 
   return farthest;
 }
 
+std::optional<Vector2> RouteLengths::reached_away_from(const Vector2& point_map, double least_m,
+                                                       double most_m) const {
+  std::optional<Vector2> best;
+  float shortest_m = kUnreached;
+  for_each_within(point_map, most_m, [&](std::size_t index) {
+    if (length_m_[index] >= shortest_m) return;
+    const Vector2 centre = cell_centre(grid_.best_cell(index), cell_size_m_);
+    const double distance_m = (centre - point_map).norm();
+    if (distance_m < least_m || distance_m > most_m) return;
+    best = centre;
+    shortest_m = length_m_[index];
+  });
+  return best;
+}
+
 std::optional<Vector2> RouteLengths::before_what_shuts(const Vector2& point_map, double within_m) const {
   std::vector<std::size_t> around;
   for_each_within(point_map, within_m, [&](std::size_t index) {

@@ -23,6 +23,8 @@ class RouteLengths {
   std::optional<Vector2> nearest_reached(const Vector2& point_map, double within_m) const;
   /// Of all reached places the one farthest from a point, as the crow flies. Linear in the map's box.
   std::optional<Vector2> farthest_reached(const Vector2& point_map) const;
+  /// Of the reached places so far from a point, as the crow flies, the one with the shortest way.
+  std::optional<Vector2> reached_away_from(const Vector2& point_map, double least_m, double most_m) const;
   /// Whether the way there comes by a lone post, which may have a wide foot below the lidar.
   bool leads_by_post(const Vector2& point_map) const;
   /// From what is not reached so near to a point back along ground that had room once: the first reached

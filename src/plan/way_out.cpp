@@ -13,21 +13,22 @@ namespace {
 
 /// Of a start that shows as occupied: the robot is there, so nothing else is.
 constexpr double kOwnBody_m = 0.1;
-constexpr double kReach_m = 1.3, kReachInForbidden_m = 8.0;
+/// A passage beside a bed is two metres long.
+constexpr double kReach_m = 2.5, kReachInForbidden_m = 8.0;
 /// How many times as much a step costs where there is no room at all.
 constexpr int kTightness = 5;
 
 /// Dijkstra over the cells around the start.
 class WayOut {
  public:
-  using Pocket = std::function<bool(std::size_t)>;
-  /// A pocket may be null.
-  WayOut(const Costmap& map, const Ground& ground, CellIndex start, const Pocket& pocket)
+  using LeadsOn = std::function<bool(std::size_t)>;
+  /// It may be null: everywhere.
+  WayOut(const Costmap& map, const Ground& ground, CellIndex start, const LeadsOn& leads_on)
       : map_(map),
         ground_(ground),
         start_(start),
-        pocket_(pocket),
-        least_steps_(pocket ? ground.least_clearance() / 2 : 0),
+        leads_on_(leads_on),
+        least_steps_(leads_on ? ground.least_clearance() / 2 : 0),
         radius_(static_cast<int>(way_out_reach_m(map, cell_centre(start, map.cell_size_m())) /
                                  map.cell_size_m())),
         own_body_(map.is_occupied(start) ? static_cast<int>(kOwnBody_m / map.cell_size_m()) : 0),
@@ -66,7 +67,7 @@ class WayOut {
     const CoarseGrid& grid = map_.coarse();
     const std::size_t coarse = grid.index_of(c);
     return map_.clearance_steps(c) >= ground_.least_clearance() && ground_.price(grid[coarse]) != 0 &&
-           !(pocket_ && pocket_(coarse));
+           (!leads_on_ || leads_on_(coarse));
   }
   bool is_passable(CellIndex c) const {
     const int dx = c.x - start_.x, dy = c.y - start_.y, square = dx * dx + dy * dy;
@@ -103,7 +104,7 @@ class WayOut {
   const Costmap& map_;
   const Ground& ground_;
   CellIndex start_;
-  const Pocket& pocket_;
+  const LeadsOn& leads_on_;
   int least_steps_;
   int radius_, own_body_;  ///< cells
   bool leaves_forbidden_;
@@ -121,10 +122,10 @@ double way_out_reach_m(const Costmap& map, const Vector2& start_map) {
   return map.is_forbidden(cell_at(start_map, map.cell_size_m())) ? kReachInForbidden_m : kReach_m;
 }
 
-std::optional<std::vector<Vector2>> way_out_of(const std::function<bool(std::size_t)>& pocket,
+std::optional<std::vector<Vector2>> way_out_to(const std::function<bool(std::size_t)>& leads_on,
                                                const Costmap& map, const Ground& ground,
                                                const Vector2& start_map) {
-  const auto cells = WayOut(map, ground, cell_at(start_map, map.cell_size_m()), pocket).find();
+  const auto cells = WayOut(map, ground, cell_at(start_map, map.cell_size_m()), leads_on).find();
   if (!cells) return std::nullopt;
   std::vector<Vector2> way{start_map};
   for (std::size_t i = 1; i < cells->size(); ++i) {
@@ -136,7 +137,7 @@ std::optional<std::vector<Vector2>> way_out_of(const std::function<bool(std::siz
 
 std::optional<std::vector<Vector2>> way_out(const Costmap& map, const Ground& ground,
                                             const Vector2& start_map) {
-  return way_out_of(nullptr, map, ground, start_map);
+  return way_out_to(nullptr, map, ground, start_map);
 }
 
 }  // namespace dynslam

@@ -20,9 +20,9 @@ double way_out_reach_m(const Costmap& map, const Vector2& start_map);
 /// Nothing when there is no such place within way_out_reach_m(). REQUIRES: the map's box holds the start.
 std::optional<std::vector<Vector2>> way_out(const Costmap& map, const Ground& ground,
                                             const Vector2& start_map);
-/// As way_out(), to a place outside of a pocket, given by the indices of its coarse cells, through gaps that
+/// As way_out(), to a place that leads on, which is asked of the indices of coarse cells, through gaps that
 /// leave the robot half the room that it should have.
-std::optional<std::vector<Vector2>> way_out_of(const std::function<bool(std::size_t)>& pocket,
+std::optional<std::vector<Vector2>> way_out_to(const std::function<bool(std::size_t)>& leads_on,
                                                const Costmap& map, const Ground& ground,
                                                const Vector2& start_map);
 

@@ -151,6 +151,58 @@ TEST(Autopilot, SaysThatThereIsNoWayWhenAllDoorsStayShut) {
   EXPECT_LT(pilot.now - shut, std::chrono::seconds(45)) << "each is waited for once";
 }
 
+/// It stands before the door 'd' that is shut; the leaf of that is 'l' when it stands open.
+struct BeforeADoor : Pilot {
+  explicit BeforeADoor(char stands_at)
+      : Pilot({
+            "##############################",  //
+            "#.............#..............#",  //
+            "#.............#..............#",  //
+            "#......s......#..............#",  //
+            "#.............#..............#",  //
+            "#.............#..............#",  //
+            "#.............#..............#",  //
+            "#.............#..............#",  //
+            "#.............#..............#",  //
+            "#.............#..............#",  //
+            "#........lllll#..............#",  //
+            "#.............d......g.......#",  //
+            "#.............d..............#",  //
+            "#...........t.d..............#",  //
+            "#.............d..............#",  //
+            "#.............#..............#",  //
+            "#.............#..............#",  //
+            "##############################",  //
+        }) {
+    at.x = building.find(stands_at).x();
+    at.y = building.find(stands_at).y();
+    building.know_all();
+    glides = false;
+    turn(GoThere{{building.find('g')}});
+    glides = true;
+    building.wall_up('d');
+    building.know_all();
+  }
+};
+
+TEST(Autopilot, ComesUpToADoorWhoseLeafHidesThatItIsOpen) {
+  BeforeADoor pilot('s');
+  pilot.run_while([&] { return pilot.autopilot.task().has_value(); });
+  ASSERT_GT(pilot.at.y, pilot.building.find('l').y() + 0.3) << "behind where the leaf will be";
+  pilot.building.open('d');
+  pilot.building.wall_up('l');
+  pilot.looks = true;
+  EXPECT_EQ(pilot.run().reason, "arrived");
+}
+
+TEST(Autopilot, LeavesADoorwayWhereTheDoorCouldNotMove) {
+  BeforeADoor pilot('t');
+  for (int i = 0; i < 9; ++i) pilot.turn();
+  EXPECT_LT(pilot.way_m, 0.15) << "who is about to open it needs no room yet";
+  for (int i = 0; i < 12; ++i) EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kActive);
+  EXPECT_GT(pilot.away_m(pilot.building.find('d')), 1.1);
+}
+
 /// It is boxed in until 'b' is opened.
 struct BoxedIn : Pilot {
   explicit BoxedIn(const std::vector<std::string>& lines) : Pilot(lines) {

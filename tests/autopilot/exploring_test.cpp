@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The autopilot's errand to find out what is there.
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -53,6 +54,20 @@ TEST(Autopilot, HopesThatAShutDoorOpensButNotForEver) {
   EXPECT_EQ(ended.reason, "everything is mapped but what lies behind closed doors");
   EXPECT_GT(pilot.waited_s(), 20.0);
   EXPECT_LT(pilot.waited_s(), 30.0);
+}
+
+/// Who wants to come through, or to open the door to its side, would wait for the robot for ever.
+TEST(Autopilot, DoesNotStandBeforeAShutDoorAllTheTime) {
+  ShutIn pilot;
+  const auto from_door_m = [&] { return pilot.away_m(pilot.building.find('d')); };
+  double nearest_m = 100.0, aside_m = 0.0;
+  for (; pilot.waited_s() < 20.0; pilot.turn()) {
+    nearest_m = std::min(nearest_m, from_door_m());
+    if (nearest_m < 0.7) aside_m = std::max(aside_m, from_door_m());
+  }
+  EXPECT_LT(nearest_m, 0.7);
+  EXPECT_GT(aside_m, 1.2);
+  EXPECT_EQ(pilot.turn().phase, AutopilotPhase::kActive) << "it hopes still";
 }
 
 TEST(Autopilot, ExploresOnAtOnceWhenTheDoorOpensThatItHopedFor) {

@@ -131,6 +131,23 @@ TEST(RouteLengths, NamesTheReachedPlaceFarthestFromAPoint) {
   EXPECT_FALSE(planner.reach(map, {-1e300, 1.0}).farthest_reached({0, 0}));
 }
 
+TEST(RouteLengths, NamesTheReachedPlaceSoFarFromAPointThatIsNearestByRoute) {
+  DrawnFloor floor;
+  floor.clear(0, 0, 6, 6);
+  floor.occupy(3, 0, 3.1, 4);
+  const Costmap map = floor.costmap();
+  PathPlanner planner({}, kRadius_m);
+  const RouteLengths& lengths = planner.reach(map, {1, 1});
+  const Vector2 point(2.7, 1);
+  const auto place = lengths.reached_away_from(point, 1.2, 1.8);
+  ASSERT_TRUE(place);
+  EXPECT_NEAR((*place - point).norm(), 1.5, 0.31);
+  EXPECT_LT((*place - Vector2(1, 1)).norm(), 0.2) << "on the robot's side of the wall";
+  EXPECT_FALSE(lengths.reached_away_from(point, 1.2, 1.2));
+  EXPECT_FALSE(lengths.reached_away_from({1e9, 0}, 1.2, 1.8));
+  EXPECT_FALSE(planner.reach(map, {3.05, 2}, 1.0).reached_away_from(point, 8, 9));
+}
+
 TEST(RouteLengths, NamesTheReachedPlaceNearestToAPoint) {
   DrawnFloor floor = floor_of(kRooms);
   const Costmap map = floor.costmap();
