@@ -58,9 +58,10 @@ class PathPlanner {
   Plan plan(const Costmap& costmap, const PlanRequest& request);
   double goal_tolerance_m() const { return config_.goal_tolerance_m; }
 
-  /// The first leg of a polyline that does not keep the pruning margin. Of the way out of a tight place, up
-  /// to way_out_reach_m() from the first point, only what is occupied counts, and what is forbidden unless
-  /// the first point is so. What is unknown is left to the caller. What reach() gave is good no more.
+  /// The first leg of a polyline that does not keep the pruning margin. Of the way out of a tight place or a
+  /// pocket, up to way_out_reach_m() from the first point, only what is occupied counts, and what is
+  /// forbidden unless the first point is so. What is unknown is left to the caller. What reach() gave is good
+  /// no more.
   std::optional<std::size_t> first_blocked_leg(const Costmap& costmap, std::span<const Vector2> route_map);
 
   /// How far it is from `start` to everywhere, over known ground, and no farther than `most_m`. Good until
