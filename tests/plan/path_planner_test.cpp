@@ -35,6 +35,18 @@ void expect_good(const Plan& plan, const Costmap& map, const Vector2& start, con
   EXPECT_FALSE(PathPlanner({}, kRadius_m).first_blocked_leg(map, plan.route_map));
 }
 
+/// Out of where it has room the robot finds its way, though it would not plan one in.
+void expect_way_out_only(const Costmap& map, const Vector2& inside, const Vector2& outside) {
+  EXPECT_GT(map.clearance_m(inside), kRadius_m + 0.04);
+  EXPECT_EQ(plan_on(map, outside, inside).outcome, PlanOutcome::kNoRoute);
+  PathPlanner planner({}, kRadius_m);
+  const Plan plan = planner.plan(map, {inside, outside});
+  ASSERT_EQ(plan.outcome, PlanOutcome::kFound) << plan.reason;
+  EXPECT_GT(least_clearance_m(map, plan.route_map), 0.17) << "through the middle of a gap";
+  EXPECT_FALSE(planner.first_blocked_leg(map, plan.route_map));
+  EXPECT_TRUE(planner.reach(map, inside).length_m(outside));
+}
+
 /// Two rooms of 3 x 4 m, a wall of 10 cm between them from x = 3, a door of 70 cm in it at y = 1.6 to 2.3.
 DrawnFloor two_rooms(double door_from = 1.6, double door_to = 2.3) {
   DrawnFloor floor;
@@ -268,11 +280,7 @@ TEST(PathPlanner, FindsItsWayOutOfANookThroughAGapThatIsATrifleTooNarrow) {
   floor.occupy(0.5, 0.5, 1.9, 1.9);
   floor.clear(0.6, 0.6, 1.8, 1.8);
   floor.clear(1.8, 1.0, 1.9, 1.0 + 2 * kPruned_m);
-  const Vector2 nook(1.2, 1.2), outside(3, 3);
-  EXPECT_EQ(plan_on(floor.costmap(), outside, nook).outcome, PlanOutcome::kNoRoute);
-  const Plan plan = plan_on(floor.costmap(), nook, outside);
-  ASSERT_EQ(plan.outcome, PlanOutcome::kFound) << plan.reason;
-  EXPECT_TRUE(PathPlanner({}, kRadius_m).reach(floor.costmap(), nook).length_m(outside));
+  expect_way_out_only(floor.costmap(), {1.2, 1.2}, {3, 3});
 }
 
 /// As behind a bed: wide enough only here and there, now that it is inside and knows better.
@@ -282,14 +290,7 @@ TEST(PathPlanner, FindsItsWayOutOfAPassageThatHasRoomOnlyHereAndThere) {
   floor.occupy(2.1, 1, 3.9, 3);
   floor.clear(2.1, 1.8, 3.7, 1.8 + 2 * kPruned_m);
   for (const double x : {2.2, 2.7, 3.2}) floor.clear(x, 1.72, x + 0.34, 1.88 + 2 * kPruned_m);
-  const Costmap map = floor.costmap();
-  const Vector2 inside(3.37, 2.01), outside(0.6, 3.4);
-  ASSERT_GT(map.clearance_m(inside), kRadius_m + 0.04);
-  EXPECT_EQ(plan_on(map, outside, inside).outcome, PlanOutcome::kNoRoute);
-  const Plan plan = plan_on(map, inside, outside);
-  ASSERT_EQ(plan.outcome, PlanOutcome::kFound) << plan.reason;
-  EXPECT_GT(least_clearance_m(map, plan.route_map), 0.18);
-  EXPECT_TRUE(PathPlanner({}, kRadius_m).reach(map, inside).length_m(outside));
+  expect_way_out_only(floor.costmap(), {3.37, 2.01}, {0.6, 3.4});
 }
 
 /// Four legs with 36 cm between them: room to stand in their middle, but too little between two of them.
@@ -299,15 +300,8 @@ TEST(PathPlanner, FindsItsWayOutBetweenTheLegsOfAChair) {
   for (const double x : {1.0, 1.4}) {
     for (const double y : {1.0, 1.4}) floor.occupy(x, y, x + 0.04, y + 0.04);
   }
-  const Costmap map = floor.costmap();
   const Vector2 middle(1.22, 1.22), outside(3, 3);
-  ASSERT_GT(map.clearance_m(middle), kRadius_m + 0.04);
-  EXPECT_EQ(plan_on(map, outside, middle).outcome, PlanOutcome::kNoRoute);
-  const Plan plan = plan_on(map, middle, outside);
-  ASSERT_EQ(plan.outcome, PlanOutcome::kFound) << plan.reason;
-  EXPECT_GT(least_clearance_m(map, plan.route_map), 0.17) << "through the middle of a gap";
-  PathPlanner planner({}, kRadius_m);
-  EXPECT_TRUE(planner.reach(map, middle).length_m(outside));
+  expect_way_out_only(floor.costmap(), middle, outside);
   // Round it a wall with a gap that is too narrow to squeeze through.
   floor.occupy(0.6, 0.6, 1.84, 1.84);
   floor.clear(0.9, 0.9, 1.54, 1.54);
