@@ -64,7 +64,7 @@ class Explorer {
   std::optional<Time> chosen_at_;
   std::optional<Place> door_;  ///< there was a way to that and there is none any more: where to wait for it
   std::optional<Vector2> aside_map_;       ///< there it is out of the way of a door, or of who comes through
-  std::optional<Time> before_door_since_;  ///< it was there first
+  std::optional<Time> before_door_since_;  ///< since when it takes turns
   std::optional<Time> seems_over_since_, judged_at_;
   Duration hope_left_{};   ///< that a door opens
   Duration looks_left_{};  ///< for driving to doors for the first time

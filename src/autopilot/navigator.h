@@ -104,7 +104,7 @@ class Navigator {
   bool looked_ = false;             ///< it did
   bool came_up_ = false;            ///< close to the door that it waits before
   bool gave_way_ = false;
-  std::optional<Vector2> aside_map_;  ///< there it makes room for who stands in the only way out
+  std::optional<Vector2> aside_map_;  ///< where it goes to make room, or to look from close by
   std::vector<Vector2> in_vain_;      ///< before which doors it waited
   int more_looks_ = 0;                ///< that it took after the first
   std::optional<Plan> last_plan_;

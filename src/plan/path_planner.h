@@ -60,8 +60,8 @@ class PathPlanner {
 
   /// The first leg of a polyline that does not keep the pruning margin. Of the way out of a tight place or a
   /// pocket, up to way_out_reach_m() from the first point, only what is occupied counts, and what is
-  /// forbidden unless the first point is so. What is unknown is left to the caller. What reach() gave is good
-  /// no more.
+  /// forbidden unless the first point is so. What is unknown is left to the caller. There is no
+  /// reach_farther() after this.
   std::optional<std::size_t> first_blocked_leg(const Costmap& costmap, std::span<const Vector2> route_map);
 
   /// How far it is from `start` to everywhere, over known ground, and no farther than `most_m`. Good until
